@@ -1,0 +1,449 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* fluid.c: water. The pair formulas of density, momentum, viscosity, diffusion and XSPH, written once on lanes, and the
+   passes made of them. With g = (dW/dr)/r, grad W = g r_ij, and vr = v_ij . r_ij:
+
+     standard    drho_i += m_j vr g                         a_i -= m_j (p_i/rho_i^2 + p_j/rho_j^2 + Pi) g r_ij
+     weak        drho_i += rho_i (m_j/rho_j) vr g           a_i -= m_j (p_i + p_j)/(rho_i rho_j) g r_ij - m_j Pi g r_ij
+     direct      drho_i as weak                             a_i -= m_j (p_j - p_i)/(rho_i rho_j) g r_ij - m_j Pi g r_ij
+     artificial  Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu,  mu = vr/(r^2 + 0.01 h^2)        (Gray 2001 eq 2.18)
+     Morris      a_i += m_j 2 nu rho_mean.. : m_j (2 nu/rho_mean) mu_r g r^2 v_ij/(r^2 + 0.01 h^2)  (Morris et al. 1997)
+     diffusion   drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (r_ji . grad W)/(r^2 + 0.01 h^2)
+     XSPH        u_i += xsph (m_j/rho_mean) (v_j - v_i) W   (Gray 2001 eq 2.22; not with walls, as he says)
+
+   Arrays: none but the state's acc, drho (and xsph, tmp, power when chosen). Cost: one sweep a force evaluation. */
+#include "fluid.h"
+#include "kernels.h"
+
+/* the choices that a pair formula depends on; constants in the fast paths */
+typedef struct choice {
+    uint32_t kernel, scheme, viscosity, diffusion;
+    bool xsph, books;
+} choice;
+
+typedef sph_factors factors;
+
+/* constants of the pair formulas; made at init and when the configuration changes */
+void sph_make_factors(sph_sim *sim)
+{
+    const sph_config *c = &sim->cfg;
+    sph_factors *f = &sim->fac;
+    double h = c->smoothing_length, value, slope, support = sph_kernel_support(c->kernel);
+    sph_kernel_scales(c->kernel, h, &value, &slope);
+    f->inv_h = (sph_real)(1 / h);
+    f->eta = (sph_real)(0.01 * h * h);
+    f->reach = (sph_real)support;
+    f->reach2 = (sph_real)(support * support * h * h * 1.0001); /* the scalar form skips beyond: all terms are 0 there */
+    f->slope = (sph_real)slope;
+    f->value = (sph_real)value;
+    /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = 2 rho0 |mu'| in the beta term */
+    f->av_alpha = (sph_real)(2 * h * c->alpha * c->sound_speed);
+    f->av_beta = (sph_real)(4 * h * h * c->beta * c->rho0);
+    f->morris = (sph_real)(4 * c->nu);
+    f->diff = (sph_real)(2 * c->delta * h * c->sound_speed);
+    double c2 = c->sound_speed * c->sound_speed * (c->eos == SPH_TAIT_GRAY ? 7 : 1);
+    for (int k = 0; k < SPH_DIM; k++) {
+        f->gravity[k] = (sph_real)c->gravity[k];
+        /* density difference that gravity makes over a distance r at rest: rho0 g . r / c^2 */
+        f->hydro[k] = c->diffusion == SPH_HYDROSTATIC ? (sph_real)(c->rho0 * c->gravity[k] / c2) : 0;
+    }
+    f->small_p = (sph_real)(1e-6 * c->rho0 * c->sound_speed * c->sound_speed);
+}
+
+/* what a home particle brings to each pair, spread over the lanes once */
+typedef struct home {
+    vreal x[SPH_DIM], v[SPH_DIM], rho, a, iv;
+} home;
+
+SPH_INLINE home spread_home(const sph_tile *t, uint32_t h)
+{
+    home o;
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        o.x[k] = v_set(t->x[k][h]);
+        o.v[k] = v_set(t->v[k][h]);
+    }
+    o.rho = v_set(t->rho[h]);
+    o.a = v_set(t->a[h]);
+    o.iv = v_set(t->iv[h]);
+    return o;
+}
+
+SPH_INLINE vreal dot(const vreal *a, const vreal *b)
+{
+    vreal s = a[0] * b[0];
+    SPH_UNROLL
+    for (int k = 1; k < SPH_DIM; k++)
+        s = s + a[k] * b[k];
+    return s;
+}
+
+/* the continuity weight that Wickramarachchi's 3.50 and 3.79 print: pressures of the pair over the home's pressure */
+SPH_INLINE vreal printed_weight(uint32_t scheme, const factors *f, vreal ai, vreal aj, vreal rho)
+{
+    const vreal p = scheme == SPH_STANDARD_WICK ? ai * rho * rho : ai;
+    const vint usable = v_less(v_set(f->small_p), v_abs(p));
+    const vreal safe = v_select(usable, ai, v_set(1));
+    const vreal w = scheme == SPH_STANDARD_WICK ? (ai + aj) / (2 * safe) : aj / safe;
+    return v_select(usable, w, v_set(1));
+}
+
+/* one group of lanes: everything a pair gives to the home particle. wall: the candidates are ghosts */
+SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph_thread *th, const sph_tile *t,
+                     uint32_t j, uint32_t nv, bool wall, vreal (*s)[SPH_NV])
+{
+    vreal dx[SPH_DIM], dv[SPH_DIM], dw[SPH_DIM];
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        dx[k] = h->x[k] - v_load(t->x[k] + j);
+    const vreal r2 = dot(dx, dx);
+#if SPH_SCALAR
+    if (r2 > f->reach2)
+        return;
+#endif
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        dv[k] = dw[k] = h->v[k] - v_load(t->v[k] + j);
+    const bool weak = c->scheme != SPH_STANDARD && c->scheme != SPH_STANDARD_WICK;
+    const bool needs_iv = weak || c->diffusion;
+    const vreal q = v_sqrt(r2) * f->inv_h;
+    const vreal mg = k_slope(c->kernel, q) * v_load(t->m + j);
+    const vreal rho = v_load(t->rho + j), aj = v_load(t->a + j);
+    const vreal iv = needs_iv ? v_load(t->iv + j) : rho;
+    const vreal vr = dot(dv, dx);
+
+    /* continuity */
+    vreal con = mg * vr;
+    if (weak)
+        con = con * iv;
+    if (c->scheme == SPH_STANDARD_WICK || c->scheme == SPH_WEAK_WICK)
+        con = con * printed_weight(c->scheme, f, h->a, aj, h->rho);
+    s[SUM_DRHO][nv] = s[SUM_DRHO][nv] + con;
+
+    /* pressure */
+    vreal force;
+    if (!weak)
+        force = (h->a + aj) * mg;
+    else if (c->scheme == SPH_DIRECT)
+        force = (aj - h->a) * h->iv * iv * mg;
+    else
+        force = (aj + h->a) * h->iv * iv * mg;
+
+    /* viscosity; with a ghost wall the mirror velocity multiplies v_ij by beta = 1 + min(depth/distance, 1/2) */
+    const vreal inv = c->viscosity || c->diffusion ? 1 / ((r2 + f->eta) * (h->rho + rho)) : r2;
+    vreal visc = v_set(0), mu = v_set(0), fm = v_set(0);
+    if (c->viscosity) {
+        vreal vv = vr;
+        if (wall) {
+            vreal n[SPH_DIM];
+            SPH_UNROLL
+            for (int k = 0; k < SPH_DIM; k++)
+                n[k] = v_load(th->more.n[k] + j);
+            const vreal depth = v_load(th->more.depth + j);
+            const vreal dist = v_max(dot(dx, n) - depth, depth + (sph_real)1e-30); /* depth/dist <= 1 */
+            const vreal extra = depth / dist;
+            const vreal beta = v_select(v_less(extra, v_set((sph_real)0.5)), extra, v_set((sph_real)0.5)) + 1;
+            const vreal vis = v_load(th->more.vis + j) * beta;
+            SPH_UNROLL
+            for (int k = 0; k < SPH_DIM; k++)
+                dw[k] = (h->v[k] - v_load(th->more.u[k] + j)) * vis;
+            vv = dot(dw, dx);
+        }
+        if (c->viscosity == SPH_ARTIFICIAL_APPROACHING)
+            vv = v_where(v_less(vv, v_set(0)), vv);
+        mu = vv * inv; /* mu of Gray 2.18 over (rho_i + rho_j) */
+        if (c->viscosity == SPH_MORRIS) {
+            fm = mg * r2 * inv * f->morris;
+        } else {
+            visc = mu * (f->av_alpha + f->av_beta * v_abs(mu)) * mg;
+            force = force - visc;
+        }
+        mu = v_where(v_less(q, v_set(f->reach)), v_abs(mu));
+    }
+    s[SUM_MU][nv] = v_max(s[SUM_MU][nv], mu);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        s[SUM_ACC + k][nv] = s[SUM_ACC + k][nv] + force * dx[k];
+        if (c->viscosity == SPH_MORRIS)
+            s[SUM_ACC + k][nv] = s[SUM_ACC + k][nv] - fm * dw[k];
+    }
+
+    vreal diff = v_set(0);
+    if (c->diffusion && !wall) {
+        vreal dr = h->rho - rho;
+        if (c->diffusion == SPH_HYDROSTATIC) {
+            SPH_UNROLL
+            for (int k = 0; k < SPH_DIM; k++)
+                dr = dr - dx[k] * f->hydro[k];
+        }
+        /* (rho_j - rho_i) r_ji . grad W = (rho_i - rho_j) r^2 g; the sum rho_i + rho_j in inv is taken out again */
+        diff = dr * (r2 * inv * (h->rho + rho)) * mg * iv * f->diff;
+        s[SUM_DRHO][nv] = s[SUM_DRHO][nv] + (weak ? diff * h->iv : diff);
+    }
+    if (c->xsph && !wall) {
+        const vreal w = k_value(c->kernel, q) * v_load(t->m + j) / (h->rho + rho);
+        SPH_UNROLL
+        for (int k = 0; k < SPH_DIM; k++)
+            s[SUM_XSPH + k][nv] = s[SUM_XSPH + k][nv] - w * dv[k];
+    }
+    if (c->books) {
+        /* work of the pair's viscous force on the home particle relative to the partner: pairs of fluid count twice */
+        vreal d = c->viscosity == SPH_MORRIS ? -(fm * dot(dw, dv)) : -(visc * vr);
+        s[SUM_VISC][nv] = s[SUM_VISC][nv] + (wall ? d : d * (sph_real)0.5);
+        s[SUM_DIFF][nv] = s[SUM_DIFF][nv] + diff;
+        if (wall) { /* force of the wall on the fluid times the wall's velocity */
+            SPH_UNROLL
+            for (int k = 0; k < SPH_DIM; k++)
+                s[SUM_WALL][nv] = s[SUM_WALL][nv] + (force * dx[k] - fm * dw[k]) * v_load(t->v[k] + j);
+        }
+    }
+}
+
+SPH_INLINE void force_tile(const choice *c, const factors *f, sph_thread *th, uint32_t h, bool wall)
+{
+    const sph_tile *t = wall ? &th->ghost : &th->fluid;
+    const home o = spread_home(&th->home, h);
+    const uint32_t n = t->n;
+    vreal s[SPH_SUMS][SPH_NV];
+    const int used = c->books ? (int)SUM_FORCE : c->xsph ? (int)SUM_VISC : (int)SUM_XSPH;
+    SPH_UNROLL
+    for (int a = 0; a < used; a++)
+        SPH_UNROLL
+        for (int k = 0; k < SPH_NV; k++)
+            s[a][k] = v_load(th->sum[h][a] + k * SPH_W);
+    for (uint32_t j = 0; j < n; j += SPH_LANES) {
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_NV; k++)
+            pair(c, f, &o, th, t, j + k * SPH_W, k, wall, s);
+    }
+    SPH_UNROLL
+    for (int a = 0; a < used; a++)
+        SPH_UNROLL
+        for (int k = 0; k < SPH_NV; k++)
+            v_store(th->sum[h][a] + k * SPH_W, s[a][k]);
+}
+
+/* every choice read at run time: the form that covers all */
+static __attribute__((noinline)) void force_any(const choice *c, const factors *f, sph_thread *t, uint32_t h, bool wall)
+{
+    const choice own = *c;
+    if (wall)
+        force_tile(&own, f, t, h, true);
+    else
+        force_tile(&own, f, t, h, false);
+}
+
+#if SPH_WITH_FAST_PATHS
+/* the same text compiled with the choices as constants; one line adds a path */
+#define SPH_FAST_LIST(X)                                                                                    \
+    X(w2_av, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION)                                             \
+    X(w2_av_h, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC)                                            \
+    X(cubic_av, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION)
+#define SPH_FAST_FN(name, kernel, visc, diff)                                                               \
+    static __attribute__((noinline)) void force_##name(const factors *f, sph_thread *t, uint32_t h)        \
+    {                                                                                                       \
+        static const choice c = {kernel, SPH_STANDARD, visc, diff, false, false};                           \
+        force_tile(&c, f, t, h, false);                                                                     \
+    }
+SPH_FAST_LIST(SPH_FAST_FN)
+#undef SPH_FAST_FN
+#endif
+
+static choice choose(const sph_sim *sim)
+{
+    const sph_config *c = &sim->cfg;
+    return (choice){c->kernel, c->scheme, c->viscosity, c->diffusion, c->xsph != 0, c->books};
+}
+
+static void force_add(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t role)
+{
+    const sph_config *c = &sim->cfg;
+    if (role == SPH_ROLE_FORCE_WALL) {
+        sph_force_walls(sim, t, h);
+        return;
+    }
+    const factors *f = &sim->fac;
+#if SPH_WITH_FAST_PATHS
+    if (role == SPH_ROLE_FLUID && c->scheme == SPH_STANDARD && c->xsph == 0 && !c->books) {
+#define SPH_FAST_TRY(name, k, visc, diff)                                                                   \
+    if (c->kernel == (k) && c->viscosity == (visc) && c->diffusion == (diff)) {                             \
+        force_##name(f, t, h);                                                                             \
+        return;                                                                                             \
+    }
+        SPH_FAST_LIST(SPH_FAST_TRY)
+#undef SPH_FAST_TRY
+    }
+#endif
+    const choice ch = choose(sim);
+    force_any(&ch, f, t, h, role == SPH_ROLE_GHOST);
+}
+
+static bool force_home(const sph_sim *sim, const sph_set *s)
+{
+    (void)sim;
+    return s->role == SPH_ROLE_FLUID || (s->role == SPH_ROLE_GHOST && s->compressible && s->kind == SPH_WALL_GHOST);
+}
+
+/* a ghost with density by continuity sums over the fluid only; its acceleration is not used */
+static void force_tile_of(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t role)
+{
+    if (role == SPH_ROLE_FLUID || sim->set[t->home_set[h]].role == SPH_ROLE_FLUID)
+        force_add(sim, t, h, role);
+}
+
+SPH_INLINE sph_real larger(sph_real a, sph_real b) { return a < b ? b : a; }
+
+/* forces and rates of one particle from its sums; adds gravity and the body force */
+static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const factors *f = &sim->fac;
+    const sph_config *c = &sim->cfg;
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const uint32_t i = t->home_at[h];
+    const sph_set *set = &sim->set[t->home_set[h]];
+    const bool weak = c->scheme != SPH_STANDARD && c->scheme != SPH_STANDARD_WICK, fluid = set->role == SPH_ROLE_FLUID;
+    sph_real (*s)[SPH_LANES] = t->sum[h];
+    sph_real d = v_fold(s[SUM_DRHO]) * f->slope, a2 = 0, v2 = 0;
+    d = (weak ? d * t->home.rho[h] : d) / set->rho0_r;
+    b->drho[0][i] = c->density == SPH_CONTINUITY ? d : 0;
+    if (!fluid)
+        return;
+    sph_real acc[SPH_DIM], body = 0;
+    for (int k = 0; k < SPH_DIM; k++) {
+        acc[k] = f->gravity[k] - v_fold(s[SUM_ACC + k]) * f->slope;
+        if (c->xsph != 0)
+            b->xsph[k][i] = v_fold(s[SUM_XSPH + k]) * (f->value * (sph_real)(2 * c->xsph));
+    }
+    if (sim->has_force_wall)
+        for (int k = 0; k < SPH_DIM; k++)
+            acc[k] += s[SUM_FORCE][k];
+    if (c->body_force) {
+        double x[SPH_DIM], v[SPH_DIM], add[SPH_DIM];
+        for (int k = 0; k < SPH_DIM; k++) {
+            x[k] = c->lo[k] + (double)b->pos[k][i] * sim->quantum;
+            v[k] = (double)t->home.v[k][h];
+            add[k] = 0;
+        }
+        c->body_force(c->body_ctx, sim->next.time, x, v, add);
+        for (int k = 0; k < SPH_DIM; k++) {
+            acc[k] += (sph_real)add[k];
+            body += (sph_real)add[k] * t->home.v[k][h];
+        }
+    }
+    for (int k = 0; k < SPH_DIM; k++) {
+        b->acc[k][i] = acc[k];
+        a2 += acc[k] * acc[k];
+        v2 += t->home.v[k][h] * t->home.v[k][h];
+    }
+    if (c->books) { /* powers per unit mass of this particle */
+        sim->power[0][i] = v_fold(s[SUM_VISC]) * f->slope;
+        sim->power[1][i] = s[SUM_FORCE][SPH_DIM] - v_fold(s[SUM_WALL]) * f->slope;
+        sim->power[2][i] = v_fold(s[SUM_DIFF]) * f->slope;
+        sim->power[3][i] = body;
+    }
+    t->peaks.mu = larger(t->peaks.mu, v_fold_max(s[SUM_MU]) * (2 * t->home.rho[h]));
+    t->peaks.acc = larger(t->peaks.acc, a2);
+    t->peaks.speed = larger(t->peaks.speed, v2);
+    if (!(a2 + d * d < SPH_LIMIT_SQUARE)) /* also catches not-a-number */
+        sph_fail_note(t, SPH_NOT_FINITE, sim->buf[sim->src].id[0][b->id[0][i]], (double)a2);
+}
+
+static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    static const sph_sweep any = {
+        force_home, 1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL, false, force_tile_of, force_finish};
+    static const sph_sweep with_iv = {
+        force_home, 1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL, true, force_tile_of, force_finish};
+    bool iv = sim->cfg.diffusion || (sim->cfg.scheme != SPH_STANDARD && sim->cfg.scheme != SPH_STANDARD_WICK);
+    sph_sweep_chunk(sim, iv ? &with_iv : &any, chunk, t);
+}
+
+static sph_status force_end(sph_sim *sim)
+{
+    sim->next.peaks.acc = SPH_SQRT(sim->next.peaks.acc);
+    sim->next.peaks.speed = SPH_SQRT(sim->next.peaks.speed);
+    return SPH_OK;
+}
+const sph_pass sph_pass_force = {"force", sph_sweep_chunks, force_chunk, force_end, NULL};
+
+/* ---- density by summation (Gray 2001 eq 2.19) and the Shepard filter (Wickramarachchi 2009 eq 6.3) ---- */
+
+enum { SUM_MW, SUM_VW };
+
+static bool fluid_home(const sph_sim *sim, const sph_set *s)
+{
+    (void)sim;
+    return s->role == SPH_ROLE_FLUID;
+}
+
+SPH_INLINE void density_tile(uint32_t kernel, const factors *f, sph_thread *th, uint32_t h, const sph_tile *t)
+{
+    const home o = spread_home(&th->home, h);
+    vreal mw[SPH_NV], vw[SPH_NV];
+    for (int k = 0; k < SPH_NV; k++) {
+        mw[k] = v_load(th->sum[h][SUM_MW] + k * SPH_W);
+        vw[k] = v_load(th->sum[h][SUM_VW] + k * SPH_W);
+    }
+    for (uint32_t j = 0; j < t->n; j += SPH_LANES)
+        for (uint32_t k = 0; k < SPH_NV; k++) {
+            vreal dx[SPH_DIM];
+            SPH_UNROLL
+            for (int a = 0; a < SPH_DIM; a++)
+                dx[a] = o.x[a] - v_load(t->x[a] + j + k * SPH_W);
+            const vreal w = k_value(kernel, v_sqrt(dot(dx, dx)) * f->inv_h) * v_load(t->m + j + k * SPH_W);
+            mw[k] = mw[k] + w;
+            vw[k] = vw[k] + w * v_load(t->iv + j + k * SPH_W);
+        }
+    for (int k = 0; k < SPH_NV; k++) {
+        v_store(th->sum[h][SUM_MW] + k * SPH_W, mw[k]);
+        v_store(th->sum[h][SUM_VW] + k * SPH_W, vw[k]);
+    }
+}
+
+static void density_add(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t role)
+{
+    density_tile(sim->cfg.kernel, &sim->fac, t, h, role == SPH_ROLE_GHOST ? &t->ghost : &t->fluid);
+}
+
+static void summation_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const sph_real rho0 = sim->set[t->home_set[h]].rho0_r;
+    sim->tmp[t->home_at[h]] = (v_fold(t->sum[h][SUM_MW]) * sim->fac.value - rho0) / rho0;
+}
+static void summation_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    static const sph_sweep w = {fluid_home, 1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST, true, density_add, summation_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
+}
+
+static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const sph_real rho0 = sim->set[t->home_set[h]].rho0_r;
+    /* the particle itself is in both sums, so the lower one is never 0 */
+    sim->tmp[t->home_at[h]] = (v_fold(t->sum[h][SUM_MW]) / v_fold(t->sum[h][SUM_VW]) - rho0) / rho0;
+}
+static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    static const sph_sweep w = {fluid_home, 1u << SPH_ROLE_FLUID, true, density_add, shepard_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
+}
+
+/* the filtered density becomes the density; in its own pass, because neighbours read the old one */
+static void copy_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    uint32_t last = (chunk + 1) * SPH_LOCAL_CHUNK < sim->next.count ? (chunk + 1) * SPH_LOCAL_CHUNK : sim->next.count;
+    for (uint32_t i = chunk * SPH_LOCAL_CHUNK; i < last; i++)
+        if (b->set[0][i] != SPH_DEAD && sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
+            b->rho[0][i] = sim->tmp[i];
+    t->work += last - chunk * SPH_LOCAL_CHUNK;
+}
+
+static bool sums_density(const sph_sim *sim) { return sim->cfg.density == SPH_SUMMATION; }
+static bool filters_now(const sph_sim *sim)
+{
+    return sim->cfg.shepard_every && sim->next.step && sim->next.step % sim->cfg.shepard_every == 0;
+}
+static bool copies_density(const sph_sim *sim) { return sums_density(sim) || filters_now(sim); }
+const sph_pass sph_pass_summation = {"summation", sph_sweep_chunks, summation_chunk, NULL, sums_density};
+const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, filters_now};
+const sph_pass sph_pass_copy_density = {"copy density", sph_local_chunks, copy_density_chunk, NULL, copies_density};

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* internal.h: the simulation's own data, and which file does what.
+
+   layout.c   configuration checks, the one layout function, init, usage
+   setup.c    sets, particles, lattices, walls as particles
+   sort.c     moves particles and orders them by (cell, id): the start of every stage
+   sweep.c    the one neighbour sweep: candidates of a cell go into tiles, sums come out
+   fluid.c    pair formulas of water: density, momentum, viscosity, diffusion, XSPH, filters
+   walls.c    boundary forces, Adami's extrapolation, crossing, moving walls
+   step.c     integrators as lists of passes, slices, threads, time step, failure
+   books.c    totals, probes, gauges; hash.c state hash; dump.c dump and restore
+   kernels.c  smoothing kernels; dmath.c deterministic functions; lanes.h vectors
+
+   Arrays: a state buffer holds what one moment of the scene is made of. A step reads buffer `cur`, writes another,
+   and commits by changing `cur`: that is how a failed step leaves the state as it was. */
+#ifndef SPH_INTERNAL_H
+#define SPH_INTERNAL_H
+
+#include "lanes.h"
+#include "sph.h"
+
+#define SPH_PAD 16u       /* elements that may be read past an array's end by a vector */
+#define SPH_POWERS 4u     /* kept in the books: viscous, wall, diffusion, body force */
+#define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
+#define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
+
+/* Positions are integers, counted in quanta from the domain's low corner. One quantum is a power of two (m) such
+   that the longest axis has at most 2^30 (float) or 2^52 (double) of them: equally fine everywhere, exact to
+   subtract, and 2^6 times finer than a float at the far end of the domain. */
+typedef sph_int sph_pos;
+#define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
+
+/* the one list of state fields: name, element type, components, unit, condition on the configuration */
+#define SPH_STATE_FIELDS(X)                                                                                 \
+    X(pos, sph_pos, SPH_DIM, "quantum", true)                                                               \
+    X(vel, sph_real, SPH_DIM, "m/s", true)                                                                  \
+    X(rho, sph_real, 1, "1", true) /* (density - rho0)/rho0 */                                              \
+    X(acc, sph_real, SPH_DIM, "m/s^2", true)                                                                \
+    X(drho, sph_real, 1, "1/s", true)                                                                       \
+    X(xsph, sph_real, SPH_DIM, "m/s", c->xsph != 0)                                                         \
+    X(id, uint32_t, 1, "1", true) /* within a step: the particle's index in the source buffer */            \
+    X(set, uint8_t, 1, "1", true)
+
+typedef struct sph_buffer {
+#define SPH_FIELD_MEMBER(name, type, comps, unit, when) type *name[comps];
+    SPH_STATE_FIELDS(SPH_FIELD_MEMBER)
+#undef SPH_FIELD_MEMBER
+} sph_buffer;
+
+/* one particle set: constants that its particles share */
+typedef struct sph_set {
+    uint32_t role, kind, group; /* group: SPH_MAX_GROUPS for fluid */
+    bool compressible, no_slip, corner;
+    double mass, rho0, c0;
+    double strength;
+    double origin[SPH_DIM];     /* middle of the wall's face at displacement 0, from the domain's low corner (m) */
+    double normal[SPH_DIM];     /* into the fluid */
+    double tangent[SPH_DIM];    /* 3-D: one of the two in-plane directions */
+    double half[2], thick;      /* wall region behind the face: half extents along tangents, depth (m) */
+    sph_pos low[SPH_DIM], high[SPH_DIM]; /* box around that region, quanta, at displacement 0 */
+    sph_real mass_r, rho0_r, b_r; /* what the sweep reads; b: pressure scale of the equation of state */
+} sph_set;
+
+/* wall sets that move or vanish together */
+typedef struct sph_group {
+    sph_motion motion;
+    void *ctx;
+} sph_group;
+/* where a group is now */
+typedef struct sph_group_state {
+    double remove_at;           /* s; infinite: never */
+    double vel[SPH_DIM];        /* m/s */
+    sph_pos moved[SPH_DIM];     /* displacement, quanta */
+    uint32_t removed;
+} sph_group_state;
+
+/* largest values of the latest force sweep: what the step limits are made of */
+typedef struct sph_peaks {
+    sph_real mu, acc, speed;
+} sph_peaks;
+
+/* constants of the pair formulas (fluid.c) */
+typedef struct sph_factors {
+    sph_real inv_h, eta, reach, reach2, slope, value;
+    sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], gravity[SPH_DIM], small_p;
+} sph_factors;
+
+/* everything of the state that is not an array; copied whole when a step commits */
+typedef struct sph_scalars {
+    double time, dt_last;
+    uint64_t step;
+    uint32_t count, left, crossed, put_back, reflected;
+    bool primed, started; /* first forces known; first step done (leap-frog) */
+    sph_peaks peaks;
+    double work[SPH_POWERS]; /* J, their integrals */
+    double removed_mass;     /* kg */
+    double power[SPH_POWERS]; /* W, at the end of the latest step: viscous, wall, diffusion, body */
+    sph_group_state group[SPH_MAX_GROUPS];
+} sph_scalars;
+
+/* a place in a step where a failure was seen; the smallest particle id wins, so it does not depend on threads */
+typedef struct sph_fail {
+    sph_status status;
+    uint32_t particle;
+    double value;
+} sph_fail;
+
+struct sph_thread; /* per-thread scratch: sweep.h */
+
+typedef struct sph_pass sph_pass;
+/* the stage a sort belongs to: which positions it moves the particles to, and what else it advances */
+enum { SPH_ADV_COPY, SPH_ADV_PC, SPH_ADV_KDK, SPH_ADV_LEAP, SPH_ADV_RK, SPH_ADV_RKM };
+
+#define SPH_MAX_RANGES 64u
+#define SPH_MAX_PROGRAM 48u
+
+struct sph_sim {
+    uint64_t magic;
+    sph_config cfg;
+    /* grid */
+    double quantum, length[SPH_DIM];
+    sph_pos extent[SPH_DIM]; /* domain size, quanta */
+    uint32_t ncell[SPH_DIM], cells, slabs, slab_cells;
+    uint32_t cell_mul[SPH_DIM]; /* cell index = (position * mul) >> 32 after a shift */
+    uint32_t pos_shift;
+    double support;
+    sph_factors fac;
+    /* arrays */
+    sph_buffer buf[3];
+    uint32_t buffers, cur, src, dst; /* current state; source and target of the stage under way */
+    uint32_t src_count, mode;        /* particles in src; SPH_ADV_... of the stage */
+    bool src_table;                  /* cell[] belongs to src, so its slabs are known */
+    uint32_t *cell;                  /* cells + 1 starts */
+    uint32_t *slab;                  /* starts of the slabs in the source buffer */
+    sph_real *tmp;                   /* filtered density */
+    sph_real *power[4];              /* viscous, wall, diffusion, body-force power of a particle (books) */
+    double *partial;                 /* SPH_POWERS sums a chunk (books) */
+    uint32_t partials;
+    struct sph_thread *thread;
+    size_t arena_bytes, arena_used;
+    /* sets */
+    sph_set *set;     /* SPH_MAX_SETS of them, in the arena like everything large */
+    sph_group *group; /* SPH_MAX_GROUPS */
+    uint32_t sets, groups;
+    uint64_t setup_hash;
+    bool has_ghost, has_adami, has_adami_slip, has_compressible, has_force_wall;
+    /* state */
+    sph_scalars now, next; /* next: being made by the step under way */
+    bool table_valid;      /* cell[] belongs to buffer cur */
+    /* step machine */
+    const sph_pass *program[SPH_MAX_PROGRAM];
+    uint32_t passes, pc, chunk, chunks;
+    bool begun;
+    double dt, t_end;
+    uint32_t limit;
+    double limit_dt[SPH_LIMITS];
+    uint64_t work, pairs, budget;
+    uint32_t ranges, range_count[SPH_MAX_RANGES];
+    sph_report report;
+    /* marks */
+    uint32_t mark_particles, mark_cell;
+    uint64_t mark_work, last_work, last_pairs;
+    uint32_t last_passes, last_limit;
+    double last_dt;
+};
+
+/* A pass: some chunks that may run in any order and at once, then an end that runs alone. */
+struct sph_pass {
+    const char *name;
+    uint32_t (*chunks)(const sph_sim *sim);                            /* null: none */
+    void (*run)(sph_sim *sim, uint32_t chunk, struct sph_thread *t);   /* adds to t->work and the like */
+    sph_status (*end)(sph_sim *sim);                                   /* null: nothing */
+    bool (*wanted)(const sph_sim *sim);                                /* null: always */
+};
+
+/* ---- shared by files ---- */
+#define sph_sim_magic 0x5350485f53494d31u
+
+#define sph_fail_note SPH_NAME(fail_note_)
+void sph_fail_note(struct sph_thread *t, sph_status s, uint32_t id, double value);
+#define sph_error SPH_NAME(error_)
+sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle);
+#define sph_mix SPH_NAME(mix_)
+uint64_t sph_mix(uint64_t h, uint64_t v);
+#define sph_mix_double SPH_NAME(mix_double_)
+uint64_t sph_mix_double(uint64_t h, double v);
+#define sph_hash_config SPH_NAME(hash_config_)
+uint64_t sph_hash_config(const sph_config *c);
+#define sph_hash_buffer SPH_NAME(hash_buffer_)
+uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n);
+#define sph_pressure SPH_NAME(pressure_)
+double sph_pressure(const sph_sim *sim, const sph_set *s, double d);
+#define sph_density_of SPH_NAME(density_of_)
+double sph_density_of(const sph_sim *sim, const sph_set *s, double p);
+#define sph_kernel_w SPH_NAME(kernel_w_)
+double sph_kernel_w(const sph_sim *sim, double r);
+
+SPH_INLINE bool sph_finite(double x) { return x - x == 0; }
+SPH_INLINE double sph_abs(double x) { return x < 0 ? -x : x; }
+
+/* cell of a position along axis k; the position must be inside the domain */
+SPH_INLINE uint32_t sph_cell_axis(const sph_sim *sim, uint32_t k, sph_pos q)
+{
+    return (uint32_t)(((uint64_t)(uint32_t)(q >> sim->pos_shift) * sim->cell_mul[k]) >> 32);
+}
+SPH_INLINE uint32_t sph_cell_of(const sph_sim *sim, const sph_pos *q)
+{
+    uint32_t c = 0;
+    for (uint32_t k = SPH_DIM; k-- > 0;)
+        c = c * sim->ncell[k] + sph_cell_axis(sim, k, q[k]);
+    return c;
+}
+
+#endif

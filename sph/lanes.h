@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* lanes.h: the eight virtual lanes. This is the one file that knows about vector registers.
+
+   Every sum over neighbours runs in SPH_LANES = 8 partial sums: neighbour number k of a particle
+   goes to lane k mod 8, and the lanes are folded in one fixed order. A machine handles the eight
+   lanes in groups of W (1, 2, 4 or 8): the grouping changes who computes, never what. The pair
+   formulas are written once, on the type `vreal`, which is a vector of W reals, or a plain real
+   where W is 1; in that case pairs out of range are skipped, which adds no bit because the
+   vector form adds a true zero there.
+
+   Only + - * / and the square root are used, element by element, as IEEE 754 defines them. */
+#ifndef SPH_LANES_H
+#define SPH_LANES_H
+
+#include <float.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "sph.h"
+
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "sph needs FLT_EVAL_METHOD 0 (on 32-bit x86: -msse2 -mfpmath=sse; gcc: -fexcess-precision=fast)"
+#endif
+#ifdef __FAST_MATH__
+#error "sph must not be built with -ffast-math: it changes bits"
+#endif
+
+#define SPH_LANES 8
+
+#if SPH_DOUBLE
+#define SPH_SQRT(x) __builtin_sqrt(x)
+#else
+#define SPH_SQRT(x) __builtin_sqrtf(x)
+#endif
+
+#define SPH_INLINE static inline __attribute__((always_inline, unused))
+#if defined(__clang__)
+#define SPH_UNROLL _Pragma("unroll")
+#else
+#define SPH_UNROLL _Pragma("GCC unroll 8")
+#endif
+
+/* bytes of one vector register; SPH_VECTOR_BYTES=0 asks for the scalar form */
+#ifndef SPH_VECTOR_BYTES
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define SPH_VECTOR_BYTES 64
+#elif defined(__AVX2__)
+#define SPH_VECTOR_BYTES 32
+#elif defined(__SSE2__) || defined(__aarch64__) || defined(__wasm_simd128__)
+#define SPH_VECTOR_BYTES 16
+#else
+#define SPH_VECTOR_BYTES 0
+#endif
+#endif
+
+#if SPH_DOUBLE
+typedef int64_t sph_int; /* the integer as wide as a real */
+#define SPH_REAL_BYTES 8
+#else
+typedef int32_t sph_int;
+#define SPH_REAL_BYTES 4
+#endif
+
+#if SPH_VECTOR_BYTES >= 2 * SPH_REAL_BYTES
+#if SPH_VECTOR_BYTES / SPH_REAL_BYTES > SPH_LANES
+#define SPH_W SPH_LANES
+#else
+#define SPH_W (SPH_VECTOR_BYTES / SPH_REAL_BYTES)
+#endif
+typedef sph_real vreal __attribute__((vector_size(SPH_W * SPH_REAL_BYTES)));
+typedef sph_int vint __attribute__((vector_size(SPH_W * SPH_REAL_BYTES)));
+#define SPH_SCALAR 0
+SPH_INLINE vreal v_sqrt(vreal a)
+{
+    vreal r;
+    for (int l = 0; l < SPH_W; l++)
+        r[l] = SPH_SQRT(a[l]);
+    return r;
+}
+SPH_INLINE vreal v_set(sph_real a) { return a - (vreal){0}; }
+SPH_INLINE vreal v_from_int(vint a) { return __builtin_convertvector(a, vreal); }
+SPH_INLINE vint v_to_int(vreal a) { return __builtin_convertvector(a, vint); } /* towards 0; |a| must be in range */
+SPH_INLINE vint v_set_int(sph_int a) { return a - (vint){0}; }
+SPH_INLINE vint v_less_int(vint a, vint b) { return a < b; }
+/* a where m holds, else 0 */
+SPH_INLINE vreal v_where(vint m, vreal a) { return (vreal)(m & (vint)a); }
+SPH_INLINE vint v_less(vreal a, vreal b) { return a < b; }
+SPH_INLINE vreal v_select(vint m, vreal a, vreal b)
+{
+    return (vreal)((m & (vint)a) | (~m & (vint)b));
+}
+#else
+#define SPH_W 1
+typedef sph_real vreal;
+typedef sph_int vint;
+#define SPH_SCALAR 1
+SPH_INLINE vreal v_sqrt(vreal a) { return SPH_SQRT(a); }
+SPH_INLINE vreal v_set(sph_real a) { return a; }
+SPH_INLINE vreal v_from_int(vint a) { return (vreal)a; }
+SPH_INLINE vint v_to_int(vreal a) { return (vint)a; }
+SPH_INLINE vint v_set_int(sph_int a) { return a; }
+SPH_INLINE vint v_less_int(vint a, vint b) { return -(vint)(a < b); }
+SPH_INLINE vreal v_where(vint m, vreal a) { return m ? a : 0; }
+SPH_INLINE vint v_less(vreal a, vreal b) { return -(vint)(a < b); }
+SPH_INLINE vreal v_select(vint m, vreal a, vreal b) { return m ? a : b; }
+#endif
+
+#define SPH_NV (SPH_LANES / SPH_W) /* vectors that make up the eight lanes */
+
+SPH_INLINE vreal v_load(const sph_real *p)
+{
+    vreal v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+SPH_INLINE void v_store(sph_real *p, vreal v) { memcpy(p, &v, sizeof v); }
+SPH_INLINE void v_store_int(void *p, vint v) { memcpy(p, &v, sizeof v); }
+SPH_INLINE vint v_load_int(const void *p)
+{
+    vint v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+SPH_INLINE vreal v_max(vreal a, vreal b) { return v_select(v_less(a, b), b, a); }
+SPH_INLINE vreal v_pos(vreal a) { return v_where(v_less(v_set(0), a), a); } /* max(a, 0) */
+SPH_INLINE vreal v_abs(vreal a) { return v_max(a, -a); }
+
+/* 0, 1, 2 ... */
+static const sph_real sph_lane_numbers[SPH_LANES] __attribute__((unused)) = {0, 1, 2, 3, 4, 5, 6, 7};
+
+/* the one order in which eight partial sums become a sum */
+SPH_INLINE sph_real v_fold(const sph_real *l)
+{
+    return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
+}
+SPH_INLINE sph_real v_fold_max(const sph_real *l)
+{
+    sph_real m = l[0];
+    for (int k = 1; k < SPH_LANES; k++)
+        m = m < l[k] ? l[k] : m;
+    return m;
+}
+
+#endif

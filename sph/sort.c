@@ -1,0 +1,377 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* sort.c: the start of every stage. Moves the particles of buffer src into buffer dst, ordered by cell and inside a cell
+   by id, and fills the table of cell starts: two passes of a counting sort.
+
+   It runs in ranges of slabs (layers of cells along the last axis). A range looks only at particles that were in its
+   slabs or next to them, because a particle moves less than a cell in a step, and writes only its own cells: so ranges run
+   at once and in any order. (cell, id) is a total order, so neither ranges nor threads show in the result.
+
+   dst.id holds each particle's index in src until the stage's last pass writes the id itself. Costs the table of cells
+   (4 bytes each) and of slabs. */
+#include "fluid.h"
+
+#define BLOCK 64u
+
+/* new positions (and where asked, velocities and densities) of a block of particles */
+typedef struct block {
+    sph_pos pos[SPH_DIM][BLOCK + 8];
+    sph_real vel[SPH_DIM][BLOCK + 8];
+    sph_real rho[BLOCK + 8];
+    uint8_t gone[BLOCK]; /* 1: dropped silently, 2: left the domain */
+} block;
+
+/* the kick that a stage gives before the sweep: v' = damping (v + kick dt a), rho' = rho + rate dt drho */
+typedef struct advance {
+    sph_real drift, bend, kick, rate, damping; /* displacement = drift (v + xsph) + bend a */
+} advance;
+
+static advance stage_advance(const sph_sim *sim)
+{
+    const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5, g = (sph_real)sim->cfg.damping;
+    switch (sim->mode) {
+    case SPH_ADV_PC: return (advance){dt, dt * half, dt, dt, g};     /* Gray 2.26, 2.27, 2.29 */
+    case SPH_ADV_KDK: return (advance){dt, dt * half, half, dt, g};
+    case SPH_ADV_LEAP: /* the first step turns v^0 into v^(1/2) */
+        return sim->now.started ? (advance){dt, 0, 0, 0, 1} : (advance){dt, dt * half, half, 0, 1};
+    case SPH_ADV_RK: return (advance){half, 0, half, half, 1};       /* Wickramarachchi 3.85 */
+    case SPH_ADV_RKM: return (advance){half, 0, half, half, 1};      /* 3.91: the mean of start and Euler step */
+    default: return (advance){0, 0, 0, 0, 1};
+    }
+}
+
+/* puts a coordinate that left the domain back by the face's rule: 0 fine, 1 reflected, 2 left */
+static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
+{
+    const bool high = *q >= sim->extent[k];
+    if (*q >= 0 && !high)
+        return 0;
+    switch (sim->cfg.face[k][high]) {
+    case SPH_PERIODIC: *q += high ? -sim->extent[k] : sim->extent[k]; return 0;
+    case SPH_SYMMETRY:
+    case SPH_MIRROR_NO_SLIP: *q = high ? 2 * sim->extent[k] - 1 - *q : -*q; return 1;
+    default: return 2;
+    }
+}
+
+/* the same for a particle; reflections turn the velocity */
+int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v)
+{
+    int worst = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        int r = enforce_face(sim, k, &q[k]);
+        if (r == 1)
+            v[k] = -v[k];
+        worst = r > worst ? r : worst;
+    }
+    return worst;
+}
+
+/* displaces fluid particles i..i+n of src; returns false if one moves too far or not finitely */
+static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_t n, block *o, uint32_t at, bool all)
+{
+    const sph_buffer *b = &sim->buf[sim->src];
+    const vreal inv = v_set((sph_real)(1 / sim->quantum)), half = v_set((sph_real)0.5);
+    vint bad = v_set_int(0);
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        /* no further than a cell, and never so far that the integer overflows */
+        const vreal far = v_set((sph_real)(sim->extent[k] / (sph_pos)sim->ncell[k]));
+        const bool xsph = b->xsph[k] != NULL;
+        for (uint32_t j = 0; j < n; j += SPH_W) {
+            const vreal v = v_load(b->vel[k] + i + j), f = v_load(b->acc[k] + i + j);
+            const vreal u = xsph ? v + v_load(b->xsph[k] + i + j) : v;
+            const vreal d = (u * a->drift + f * a->bend) * inv;
+            const vint ok = v_less(v_abs(d), far);
+            const vreal safe = v_where(ok, d);
+            const vint step = v_to_int(safe + v_select(v_less(safe, v_set(0)), -half, half));
+            /* lanes behind the run's end may hold anything */
+            bad |= ~ok & v_less(v_from_int(v_set_int((sph_int)j)) + v_load(sph_lane_numbers), v_set((sph_real)n));
+            v_store_int(o->pos[k] + at + j, v_load_int(b->pos[k] + i + j) + step);
+            if (all)
+                v_store(o->vel[k] + at + j, (v + f * a->kick) * a->damping);
+        }
+    }
+    if (all)
+        for (uint32_t j = 0; j < n; j += SPH_W)
+            v_store(o->rho + at + j, v_load(b->rho[0] + i + j) + v_load(b->drho[0] + i + j) * a->rate);
+    sph_int lanes[SPH_W], any = 0;
+    v_store_int(lanes, bad);
+    for (int l = 0; l < SPH_W; l++)
+        any |= lanes[l];
+    return any == 0;
+}
+
+/* wall particles go where their group goes; their density changes only by continuity */
+static void move_wall(const sph_sim *sim, const advance *a, const sph_set *s, uint32_t i, uint32_t n, block *o, uint32_t at)
+{
+    const sph_buffer *b = &sim->buf[sim->src];
+    /* a Runge-Kutta step has walls at the step's end in both stages: they move in the first, by the copy */
+    const sph_group_state *to = &sim->next.group[s->group], *from = &sim->now.group[s->group];
+    const bool moves = sim->src == sim->cur;
+    for (uint32_t j = 0; j < n; j++) {
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            o->pos[k][at + j] = b->pos[k][i + j] + (moves ? to->moved[k] - from->moved[k] : 0);
+            o->vel[k][at + j] = b->vel[k][i + j];
+        }
+        o->rho[at + j] = s->compressible ? b->rho[0][i + j] + b->drho[0][i + j] * a->rate : b->rho[0][i + j];
+        o->gone[at + j] = to->removed ? 1 : 0;
+    }
+}
+
+static sph_status face_failure(sph_status s, uint32_t id, sph_thread *t, double value)
+{
+    sph_fail_note(t, s, id, value);
+    return s;
+}
+
+/* the block of src from i on: new positions inside the domain, and who is gone. own: note failures and losses (exactly
+   one range owns a particle) */
+static void advance_block(const sph_sim *sim, const advance *a, uint32_t i, uint32_t n, block *o, bool all,
+                          uint32_t own_from, uint32_t own_to, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->src];
+    memset(o->gone, 0, sizeof o->gone);
+    bool fine = true;
+    for (uint32_t j = 0; j < n;) {
+        const uint8_t set = b->set[0][i + j];
+        uint32_t e = j + 1;
+        while (e < n && b->set[0][i + e] == set)
+            e++;
+        if (set == SPH_DEAD)
+            memset(o->gone + j, 1, e - j);
+        else if (sim->set[set].role == SPH_ROLE_FLUID)
+            fine &= move_fluid(sim, a, i + j, e - j, o, j, all);
+        else
+            move_wall(sim, a, &sim->set[set], i + j, e - j, o, j);
+        j = e;
+    }
+    for (uint32_t k = 0; k < SPH_DIM; k++) /* anybody outside? one loop of integer compares */
+        for (uint32_t j = 0; j < n; j++)
+            fine &= (o->pos[k][j] >= 0) & (o->pos[k][j] < sim->extent[k]);
+    if (fine)
+        return;
+    for (uint32_t j = 0; j < n; j++) {
+        const bool own = i + j >= own_from && i + j < own_to;
+        sph_pos q[SPH_DIM];
+        sph_real v[SPH_DIM];
+        double far = 0;
+        if (o->gone[j])
+            continue;
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            q[k] = o->pos[k][j];
+            v[k] = o->vel[k][j];
+            double u = (double)b->vel[k][i + j] * (double)a->drift / (sim->length[k] / sim->ncell[k]);
+            far = !(sph_abs(u) <= far) ? sph_abs(u) : far;
+        }
+        if (own && !(far < 1) && sim->set[b->set[0][i + j]].role == SPH_ROLE_FLUID)
+            face_failure(sph_finite(far) ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE, b->id[0][i + j], t, far);
+        int r = sph_enforce_faces(sim, q, v);
+        if (r == 2) {
+            o->gone[j] = 2;
+            if (own && (sim->cfg.on_leave == SPH_FAIL || sim->set[b->set[0][i + j]].role != SPH_ROLE_FLUID))
+                face_failure(SPH_OUT_OF_DOMAIN, b->id[0][i + j], t, (double)q[0] * sim->quantum);
+            if (own && !all)
+                t->left++;
+            continue;
+        }
+        t->reflected += own && !all && r == 1;
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            o->pos[k][j] = q[k];
+            if (all)
+                o->vel[k][j] = v[k];
+        }
+    }
+}
+
+/* ---- ranges ---- */
+
+typedef struct range {
+    uint32_t lo, hi;         /* slabs */
+    uint32_t from[3], to[3]; /* pieces of src to look at, in order of index */
+    uint32_t pieces;
+    uint32_t own_from, own_to;
+} range;
+
+static range make_range(const sph_sim *sim, uint32_t r)
+{
+    range g;
+    g.lo = (uint32_t)((uint64_t)sim->slabs * r / sim->ranges);
+    g.hi = (uint32_t)((uint64_t)sim->slabs * (r + 1) / sim->ranges);
+    g.pieces = 1;
+    if (!sim->src_table) {
+        g.from[0] = g.own_from = 0;
+        g.to[0] = g.own_to = sim->src_count;
+        return g;
+    }
+    g.own_from = sim->slab[g.lo];
+    g.own_to = sim->slab[g.hi];
+    g.from[0] = sim->slab[g.lo > 0 ? g.lo - 1 : 0];
+    g.to[0] = sim->slab[g.hi < sim->slabs ? g.hi + 1 : sim->slabs];
+    if (sim->ranges > 1 && sim->cfg.face[SPH_DIM - 1][0] == SPH_PERIODIC) {
+        if (g.lo == 0) { /* the last slab is a neighbour too */
+            g.from[g.pieces] = sim->slab[sim->slabs - 1];
+            g.to[g.pieces++] = sim->slab[sim->slabs];
+        } else if (g.hi == sim->slabs) {
+            g.from[1] = g.from[0];
+            g.to[1] = g.to[0];
+            g.from[0] = 0;
+            g.to[0] = sim->slab[1];
+            g.pieces = 2;
+        }
+    }
+    return g;
+}
+
+/* a particle may go to its own slab or one next to it */
+static bool slab_too_far(const sph_sim *sim, uint32_t from, uint32_t to)
+{
+    uint32_t d = from > to ? from - to : to - from;
+    return d > 1 && !(sim->cfg.face[SPH_DIM - 1][0] == SPH_PERIODIC && d == sim->slabs - 1);
+}
+
+static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
+{
+    const advance a = stage_advance(sim);
+    const range g = make_range(sim, r);
+    const uint32_t c0 = g.lo * sim->slab_cells, c1 = g.hi * sim->slab_cells;
+    uint32_t total = 0, slab = g.lo;
+    block o;
+    memset(sim->cell + c0 + 1, 0, (size_t)(c1 - c0) * sizeof *sim->cell);
+    for (uint32_t p = 0; p < g.pieces; p++)
+        for (uint32_t i = g.from[p]; i < g.to[p]; i += BLOCK) {
+            uint32_t n = g.to[p] - i < BLOCK ? g.to[p] - i : BLOCK;
+            advance_block(sim, &a, i, n, &o, false, g.own_from, g.own_to, t);
+            for (uint32_t j = 0; j < n; j++) {
+                if (o.gone[j])
+                    continue;
+                sph_pos q[SPH_DIM];
+                for (uint32_t k = 0; k < SPH_DIM; k++)
+                    q[k] = o.pos[k][j];
+                uint32_t c = sph_cell_of(sim, q);
+                if (sim->src_table && i + j >= g.own_from && i + j < g.own_to) {
+                    while (slab + 1 < g.hi && sim->slab[slab + 1] <= i + j)
+                        slab++;
+                    if (slab_too_far(sim, slab, c / sim->slab_cells))
+                        sph_fail_note(t, SPH_MOVED_TOO_FAR, sim->buf[sim->src].id[0][i + j], 2);
+                }
+                if (c >= c0 && c < c1) {
+                    sim->cell[c + 1]++;
+                    total++;
+                }
+            }
+            t->work += n;
+        }
+    sim->range_count[r] = total;
+}
+
+static void swap_particles(const sph_buffer *b, uint32_t i, uint32_t j)
+{
+#define SPH_SWAP(type, array)                                                                               \
+    {                                                                                                       \
+        type keep = (array)[i];                                                                             \
+        (array)[i] = (array)[j];                                                                            \
+        (array)[j] = keep;                                                                                  \
+    }
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        SPH_SWAP(sph_pos, b->pos[k])
+        SPH_SWAP(sph_real, b->vel[k])
+    }
+    SPH_SWAP(sph_real, b->rho[0])
+    SPH_SWAP(uint32_t, b->id[0])
+    SPH_SWAP(uint8_t, b->set[0])
+#undef SPH_SWAP
+}
+
+/* insertion sort by id of the particles of one cell; they are nearly in order already */
+static void order_cell(const sph_sim *sim, uint32_t s, uint32_t e)
+{
+    const uint32_t *id = sim->buf[sim->src].id[0], *from = sim->buf[sim->dst].id[0];
+    for (uint32_t i = s + 1; i < e; i++)
+        for (uint32_t j = i; j > s && id[from[j]] < id[from[j - 1]]; j--)
+            swap_particles(&sim->buf[sim->dst], j, j - 1);
+}
+
+static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
+{
+    const advance a = stage_advance(sim);
+    const range g = make_range(sim, r);
+    const uint32_t c0 = g.lo * sim->slab_cells, c1 = g.hi * sim->slab_cells;
+    const sph_buffer *b = &sim->buf[sim->dst];
+    uint32_t *const cell = sim->cell, run = sim->range_count[r];
+    const uint8_t *set = sim->buf[sim->src].set[0];
+    uint32_t first = run;
+    block o;
+    for (uint32_t c = c0; c < c1; c++) { /* counts become starts; filling turns them into the next cell's start */
+        uint32_t n = cell[c + 1];
+        cell[c + 1] = first;
+        first += n;
+    }
+    for (uint32_t p = 0; p < g.pieces; p++)
+        for (uint32_t i = g.from[p]; i < g.to[p]; i += BLOCK) {
+            uint32_t n = g.to[p] - i < BLOCK ? g.to[p] - i : BLOCK;
+            advance_block(sim, &a, i, n, &o, true, g.own_from, g.own_to, t);
+            for (uint32_t j = 0; j < n; j++) {
+                sph_pos q[SPH_DIM];
+                for (uint32_t k = 0; k < SPH_DIM; k++)
+                    q[k] = o.pos[k][j];
+                if (o.gone[j])
+                    continue;
+                uint32_t c = sph_cell_of(sim, q);
+                if (c < c0 || c >= c1)
+                    continue;
+                uint32_t at = cell[c + 1]++;
+                for (uint32_t k = 0; k < SPH_DIM; k++) {
+                    b->pos[k][at] = q[k];
+                    b->vel[k][at] = o.vel[k][j];
+                }
+                b->rho[0][at] = o.rho[j];
+                b->id[0][at] = i + j;
+                b->set[0][at] = set[i + j];
+            }
+            t->work += n;
+        }
+    uint32_t start = run, widest = 0;
+    for (uint32_t c = c0; c < c1; c++) {
+        uint32_t end = cell[c + 1];
+        widest = end - start > widest ? end - start : widest;
+        order_cell(sim, start, end);
+        start = end;
+    }
+    t->widest = widest > t->widest ? widest : t->widest;
+}
+
+static uint32_t range_chunks(const sph_sim *sim) { return sim->ranges; }
+
+/* range totals become range starts */
+static sph_status count_end(sph_sim *sim)
+{
+    uint32_t sum = 0;
+    for (uint32_t r = 0; r < sim->ranges; r++) {
+        uint32_t n = sim->range_count[r];
+        sim->range_count[r] = sum;
+        sum += n;
+    }
+    sim->cell[0] = 0;
+    sim->next.count = sum;
+    return SPH_OK;
+}
+
+const sph_pass sph_pass_count = {"count", range_chunks, count_range, count_end, NULL};
+const sph_pass sph_pass_scatter = {"scatter", range_chunks, scatter_range, NULL, NULL};
+
+/* Prepares a stage that moves src to dst: saves the slabs of src and chooses the ranges. */
+void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bool table, uint32_t mode)
+{
+    sim->src = src;
+    sim->dst = dst;
+    sim->src_count = count;
+    sim->src_table = table;
+    sim->mode = mode;
+    sim->ranges = 1;
+    if (table) {
+        for (uint32_t s = 0; s <= sim->slabs; s++)
+            sim->slab[s] = sim->cell[(size_t)s * sim->slab_cells];
+        uint32_t r = sim->slabs / 4;
+        sim->ranges = r < 1 ? 1 : r > SPH_MAX_RANGES ? SPH_MAX_RANGES : r;
+    }
+    sim->table_valid = false; /* from here on cell[] is being rebuilt */
+}

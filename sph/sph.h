@@ -1,0 +1,532 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* sph.h: smoothed particle hydrodynamics inside memory that you hand over, with the same bits everywhere.
+
+   The whole manual is this file, in the order in which a host meets things:
+     1 build knobs   2 status   3 configuration   4 arena and life   5 fluid   6 walls   7 step
+     8 reading the state   9 books, probes, gauges   10 hash   11 dump and restore
+
+   A host fills a configuration, asks how many bytes it needs, hands over an arena, adds particles and
+   walls, and steps. The library calls no allocator, opens no file, prints nothing and keeps no global
+   state. Only sqrt, memcpy, memset and memmove are needed at link time. Units are SI (or any consistent
+   set). Positions, times and everything of set-up are double in every build; `sph_real` is what particles
+   are computed in. Arrays of SPH_DIM doubles hold x, then y, then z; the last axis is "up" only because
+   gravity usually points down it.
+
+   Bits: the order of every sum depends on positions and ids only. Any compiler that keeps IEEE 754
+   (-ffp-contract=off, no -ffast-math), any number of threads, any slicing, and a run restored from a dump
+   give the same state to the last bit; float and double builds differ from each other. */
+#ifndef SPH_H
+#define SPH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* ---- 1 build knobs ---------------------------------------------------------------------------------
+   SPH_DIM 1, 2, 3 and SPH_DOUBLE 0, 1 must be the same for the library and its users (see name.h: a
+   mismatch does not link). The knobs below leave code out; they change no type. */
+#include "name.h"
+
+#ifndef SPH_WITH_FAST_PATHS
+#define SPH_WITH_FAST_PATHS 1 /* inner loops compiled apart for common choices: same bits, more code */
+#endif
+
+#if SPH_DOUBLE
+typedef double sph_real;
+#else
+typedef float sph_real;
+#endif
+
+#define SPH_VERSION 1u
+#define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
+#define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
+
+/* ---- 2 status --------------------------------------------------------------------------------------
+   Every function that can fail returns one of these; sph_last() tells more about the latest failure. */
+#define SPH_STATUS_LIST(X)                                                                             \
+    X(OK, "ok")                                                                                        \
+    X(NOT_DONE, "the slice's budget is spent; call sph_step_slice again to finish the step")           \
+    X(BAD_CONFIG, "a field of the configuration is not allowed")                                       \
+    X(BAD_ARGUMENT, "an argument is not allowed")                                                      \
+    X(BAD_STATE, "the call is not allowed at this moment (a step is under way, or nothing was added)") \
+    X(ARENA_TOO_SMALL, "the arena is too small; the bytes needed are in the report")                   \
+    X(ARENA_UNALIGNED, "the arena is not aligned to SPH_ALIGN bytes")                                  \
+    X(ARITHMETIC, "this build or machine does not do the IEEE 754 arithmetic the kernel relies on")    \
+    X(TOO_MANY_PARTICLES, "the particle capacity is exhausted")                                        \
+    X(TOO_MANY_SETS, "the capacity for particle sets or wall groups is exhausted")                     \
+    X(NOT_FINITE, "a particle's rate or state is not finite")                                          \
+    X(DENSITY_LOST, "a particle's density left the range that its equation of state allows")           \
+    X(OUT_OF_DOMAIN, "a particle left the domain through an open face")                                \
+    X(MOVED_TOO_FAR, "a particle moved more than a cell in one step")                                  \
+    X(WALL_CROSSED, "a particle crossed a wall")                                                       \
+    X(STEP_COLLAPSED, "the time step fell below dt_min")                                               \
+    X(SINK_FAILED, "the byte sink or source reported a failure")                                       \
+    X(DUMP_TRUNCATED, "the dump ends too early")                                                       \
+    X(DUMP_CORRUPT, "the dump's checksum or structure is wrong")                                       \
+    X(DUMP_FOREIGN, "these bytes are not a dump of this library, dimension and precision")             \
+    X(DUMP_NEWER, "the dump was written by a newer version")                                           \
+    X(DUMP_MISMATCH, "the dump belongs to another configuration, set-up or capacity")
+
+typedef enum sph_status {
+#define SPH_STATUS_ENUM(name, text) SPH_##name,
+    SPH_STATUS_LIST(SPH_STATUS_ENUM)
+#undef SPH_STATUS_ENUM
+        SPH_STATUS_COUNT
+} sph_status;
+
+/* The text of a status; never null. */
+#define sph_status_text SPH_NAME(status_text)
+const char *sph_status_text(sph_status s);
+
+#define SPH_NO_PARTICLE 0xffffffffu
+
+/* What the latest failure was about. Pointers are to constant strings. */
+typedef struct sph_report {
+    sph_status status;
+    const char *what;    /* name of the field, argument or quantity; "" if none */
+    const char *allowed; /* what would be allowed, in words; "" if none */
+    const char *pass;    /* pass of the step in which it happened; "" outside a step */
+    double value;        /* the offending value (bytes needed for ARENA_TOO_SMALL) */
+    uint32_t particle;   /* id of the particle with the smallest id at fault, or SPH_NO_PARTICLE */
+} sph_report;
+
+/* ---- 3 configuration -------------------------------------------------------------------------------*/
+
+/* Smoothing kernels (supports in units of the smoothing length h). Sources: cubic Monaghan & Lattanzio
+   1985; quartic, quintic B-splines Schoenberg; Wendland 1995, the member of the family for each dimension;
+   truncated Gaussian, support 3h, renormalised; hat: for the stability lab only. */
+enum { SPH_CUBIC, SPH_QUARTIC, SPH_QUINTIC, SPH_GAUSSIAN, SPH_WENDLAND_C2, SPH_WENDLAND_C4, SPH_HAT, SPH_KERNELS };
+
+/* Schemes: one momentum equation and the continuity equation that conserves energy with it.
+   STANDARD  dv = -sum m_j (p_i/rho_i^2 + p_j/rho_j^2 + Pi) grad W,  drho = sum m_j v_ij.grad W
+             (Gray 2001 eqs 2.17, 2.21)
+   WEAK      dv = -sum m_j (p_i + p_j + Pi)/(rho_i rho_j) grad W,    drho = rho_i sum (m_j/rho_j) v_ij.grad W
+             (Wickramarachchi 2009 eq 3.80; the continuity form follows from it by energy conservation)
+   DIRECT    dv = -sum m_j (p_j - p_i + Pi)/(rho_i rho_j) grad W,    drho as WEAK
+             (Wickramarachchi 2009 eqs 3.21, 3.22: conserves neither momentum nor energy; kept to show it)
+   STANDARD_WICK, WEAK_WICK: the continuity forms printed as 3.50 and 3.79, which weight a pair by pressures
+             divided by p_i; where |p_i| is below 1e-6 rho0 c0^2 the weight falls back to 1. */
+enum { SPH_STANDARD, SPH_WEAK, SPH_DIRECT, SPH_STANDARD_WICK, SPH_WEAK_WICK, SPH_SCHEMES };
+
+/* Density: evolved by the scheme's continuity equation, or summed, rho_i = sum m_j W_ij (Gray eq 2.19). */
+enum { SPH_CONTINUITY, SPH_SUMMATION, SPH_DENSITIES };
+
+/* Equations of state, s = rho/rho0. TAIT: p = rho0 c0^2/7 (s^7 - 1), with which c0 is the sound speed at
+   rho0. TAIT_GRAY: p = rho0 c0^2 (s^7 - 1) as Gray 2001 prints it: its true sound speed is sqrt(7) c0.
+   LINEAR: p = c0^2 (rho - rho0). ISOTHERMAL: p = c0^2 rho. */
+enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
+
+/* Viscosities. ARTIFICIAL: Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu, mu = v.r/(r^2 + 0.01 h^2), on
+   approaching and receding pairs (Gray 2.18). ARTIFICIAL_APPROACHING: on approaching pairs only
+   (Wickramarachchi 3.18). MORRIS: sum m_j 2 mu/(rho_i rho_j) (r.grad W)/(r^2 + 0.01 h^2) v_ij with the
+   kinematic viscosity nu (Morris, Fox & Zhu 1997). */
+enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
+
+/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W. MOLTENI: psi = (rho_j - rho_i)
+   r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
+   two positions is taken off first (Fourtakas et al. 2019, linearised), so still water stays still. */
+enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
+
+/* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:
+   velocity Verlet; velocity-dependent terms see the half-step velocity. LEAP_FROG: Powell 2012 algorithm 1.1,
+   rates then forces (two sweeps), velocities half a step behind. RUNGE_KUTTA: Wickramarachchi 3.85-3.87;
+   RUNGE_KUTTA_MOMENTUM: his 3.91-3.92 (algebraically the same midpoint rule, rounded differently). */
+enum {
+    SPH_PREDICTOR_CORRECTOR,
+    SPH_KICK_DRIFT_KICK,
+    SPH_LEAP_FROG,
+    SPH_RUNGE_KUTTA,
+    SPH_RUNGE_KUTTA_MOMENTUM,
+    SPH_INTEGRATORS
+};
+
+/* What lies at a face of the domain box. OPEN: nothing (see on_leave). PERIODIC: both faces of the axis.
+   SYMMETRY: mirrored ghosts, free slip (also a symmetry plane). MIRROR_NO_SLIP: mirrored ghosts with both
+   velocities reversed (Wickramarachchi 6.1). Mirrored and periodic images cost no memory; corners are
+   mirrored twice. A particle never passes a mirror face: it is reflected and counted. */
+enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
+
+/* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
+   (any of the four; PUT_BACK sets it 0.1 spacings off the wall, without its velocity into the wall). */
+enum { SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE, SPH_POLICIES };
+
+/* What set the time step; also named in sph_step_info. */
+#define SPH_LIMIT_LIST(X)                                                                                   \
+    X(FIXED, "fixed") X(COURANT, "courant") X(VISCOUS, "viscous") X(FORCE, "force") X(GRAVITY, "gravity")  \
+    X(CEILING, "dt_max") X(TARGET, "end time")
+enum {
+#define SPH_LIMIT_ENUM(name, text) SPH_LIMIT_##name,
+    SPH_LIMIT_LIST(SPH_LIMIT_ENUM)
+#undef SPH_LIMIT_ENUM
+        SPH_LIMITS
+};
+
+/* A body force beside gravity: add an acceleration (m/s^2) for a particle at x (m) with velocity v (m/s) at
+   time t (s) into a. Called from several threads at once; must depend on its arguments only. */
+typedef void (*sph_body_force)(void *ctx, double t, const double *x, const double *v, double *a);
+
+/* Stage log: called after every pass of a step with a hash of what the pass may have changed. */
+typedef void (*sph_stage_log)(void *ctx, uint64_t step, const char *pass, uint64_t hash);
+
+/* What the machine provides; every member may be null. `parallel` must call fn(arg, chunk, thread) once for
+   each chunk in 0..chunks-1, in any order, thread < threads being different for calls that run at once. */
+typedef struct sph_port {
+    void *ctx;
+    uint32_t threads; /* how many `parallel` uses at most; 0 or 1: serial */
+    void (*parallel)(void *ctx, void (*fn)(void *arg, uint32_t chunk, uint32_t thread), void *arg, uint32_t chunks);
+    uint64_t (*clock)(void *ctx);                         /* nanoseconds, monotonic; never used for physics */
+    void (*fault)(void *ctx, const sph_report *report);   /* told of every failure, before it is returned */
+} sph_port;
+
+typedef struct sph_config {
+    uint32_t cookie; /* set by sph_config_default; a configuration not made by it is refused */
+
+    /* capacity */
+    uint32_t max_particles; /* fluid and wall particles together, 1 .. 2^30 */
+    uint32_t max_threads;   /* scratch for so many threads, 1 .. 256 */
+
+    /* domain: a box that holds everything, walls included (m) */
+    double lo[SPH_DIM], hi[SPH_DIM];
+    uint32_t face[SPH_DIM][2]; /* SPH_OPEN ... for the low and high face of each axis */
+    uint32_t on_leave;         /* SPH_FAIL, SPH_REMOVE */
+    uint32_t on_cross;         /* SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE */
+
+    /* interpolation */
+    uint32_t kernel;         /* SPH_CUBIC ... */
+    double spacing;          /* dx, initial particle spacing (m) */
+    double smoothing_length; /* h (m); usually 1.2 .. 2 dx */
+
+    /* fluid */
+    uint32_t scheme, density, eos;
+    bool pressure_floor;  /* p >= 0 */
+    double rho0;          /* rest density (kg/m^3) */
+    double sound_speed;   /* c0 (m/s); at least ten times the largest speed keeps density within 1 % */
+    uint32_t viscosity;
+    double alpha, beta;   /* artificial viscosity (-); Gray: beta = 3 alpha */
+    double nu;            /* kinematic viscosity (m^2/s), SPH_MORRIS */
+    uint32_t diffusion;
+    double delta;         /* density diffusion (-); 0.1 is usual */
+    double xsph;          /* XSPH factor (-), 0: off, 0.5 is usual (Gray 2.22) */
+    uint32_t shepard_every; /* Shepard density filter every so many steps, 0: never (Wickramarachchi 6.3) */
+    double gravity[SPH_DIM]; /* m/s^2 */
+    sph_body_force body_force;
+    void *body_ctx;
+    double damping; /* velocities are multiplied by it in predictor and corrector; 1: none (Gray 2.29) */
+
+    /* time */
+    uint32_t integrator;
+    double dt;              /* fixed step (s); 0: controlled by the limits below */
+    double cfl;             /* Courant factor on h/(c0 + h max|mu|) (Wickramarachchi 3.88) */
+    double viscous_factor;  /* on h^2/nu_effective */
+    double force_factor;    /* on sqrt(h/max|a|) (3.89) */
+    double gravity_factor;  /* on h/(c0 + sqrt(g h)) (Gray 2.30) */
+    double dt_max, dt_min;  /* ceiling (0: none) and the floor below which the step counts as collapsed */
+
+    bool books; /* keep work and dissipation (adds 4 reals a particle) */
+    sph_port port;
+    sph_stage_log stage_log;
+    void *stage_ctx;
+} sph_config;
+
+/* Water at rest density 1000 with safe choices: Wendland C2, h = 1.2 dx, standard scheme, continuity, Tait,
+   artificial viscosity alpha 0.01 (all pairs), predictor-corrector, controlled step. Capacity, domain,
+   spacing and sound speed are left at zero: the host must give them. */
+#define sph_config_default SPH_NAME(config_default)
+sph_config sph_config_default(void);
+
+/* Checks a configuration; on BAD_CONFIG the report names the field, its value and what is allowed.
+   report may be null. */
+#define sph_config_check SPH_NAME(config_check)
+sph_status sph_config_check(const sph_config *cfg, sph_report *report);
+
+/* ---- 4 arena and life ------------------------------------------------------------------------------
+   The arena is one block of memory, aligned to SPH_ALIGN, that the host owns and must not touch or move
+   while the simulation lives. There is nothing to free. */
+#define SPH_ALIGN 64u
+typedef struct sph_sim sph_sim;
+
+/* Bytes that sph_init needs for this configuration; 0 if the configuration is not allowed. */
+#define sph_arena_bytes SPH_NAME(arena_bytes)
+size_t sph_arena_bytes(const sph_config *cfg);
+
+/* The same as a constant expression, an upper bound for a static array: particles, cells (the product of
+   floor(extent/support) over the axes is never exceeded), threads, and an or of the SPH_USE_ flags. */
+#define SPH_USE_RUNGE_KUTTA 1u
+#define SPH_USE_XSPH 2u
+#define SPH_USE_BOOKS 4u
+#define SPH_USE_FILTER 8u /* Shepard filter or density by summation */
+#define SPH_STATE_BYTES_ ((2u * SPH_DIM + SPH_DIM + 2u) * (SPH_DOUBLE ? 8u : 4u) + 4u + 1u)
+#define SPH_PARTICLE_BYTES(use)                                                                             \
+    (SPH_STATE_BYTES_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                           \
+     (((use)&SPH_USE_XSPH) ? SPH_DIM * (SPH_DOUBLE ? 8u : 4u) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +  \
+     (((use)&SPH_USE_BOOKS) ? 4u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
+     (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u))
+#define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
+#define SPH_SCRATCH_BYTES ((SPH_DIM == 3 ? 65536u : 25600u) * (SPH_DOUBLE ? 2u : 1u)) /* a thread */
+#define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
+    (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
+     ((size_t)(particles) + 16u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
+     ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) * (((use)&SPH_USE_BOOKS) ? 64u : 0u))
+/* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
+#define SPH_ARENA(name, bytes) _Alignas(SPH_ALIGN) unsigned char name[bytes]
+
+/* Lays the arrays that the configuration chose into the arena, once, and gives an empty simulation.
+   *sim is set only on SPH_OK. On failure *report (may be null) tells what and how many bytes are needed. */
+#define sph_init SPH_NAME(init)
+sph_status sph_init(sph_sim **sim, const sph_config *cfg, void *arena, size_t bytes, sph_report *report);
+
+/* Which array took what: calls fn once for each piece of the arena, in order of address. */
+#define sph_arena_report SPH_NAME(arena_report)
+void sph_arena_report(const sph_sim *sim, void (*fn)(void *ctx, const char *name, size_t bytes), void *ctx);
+
+/* High-water marks since init. */
+typedef struct sph_usage {
+    size_t arena_bytes, arena_used;
+    uint32_t particles, max_particles; /* most particles at once, and the capacity */
+    uint32_t cells;                    /* cells of the domain */
+    uint32_t cell_particles;           /* most particles in one cell */
+    uint64_t step_work;                /* most work units in one step */
+    uint32_t sets, groups;
+} sph_usage;
+#define sph_get_usage SPH_NAME(get_usage)
+void sph_get_usage(const sph_sim *sim, sph_usage *out);
+
+/* The latest failure (status SPH_OK if there was none). */
+#define sph_last SPH_NAME(last)
+const sph_report *sph_last(const sph_sim *sim);
+
+/* Changes that are allowed between steps: gravity, damping, fixed dt, the hooks (port, stage log, body force).
+   Other fields of cfg must equal those given to sph_init, else SPH_BAD_CONFIG and nothing changes. */
+#define sph_reconfigure SPH_NAME(reconfigure)
+sph_status sph_reconfigure(sph_sim *sim, const sph_config *cfg);
+
+/* ---- 5 fluid ---------------------------------------------------------------------------------------
+   A set is a body of particles of one material; its particles have mass rho0 dx^DIM unless given. */
+typedef struct sph_fluid {
+    double mass;        /* of one particle, kg (per m of depth in 2-D, per m^2 in 1-D); 0: rho0 spacing^DIM */
+    double rho0;        /* 0: that of the configuration */
+    double sound_speed; /* 0: that of the configuration */
+} sph_fluid;
+#define sph_add_fluid SPH_NAME(add_fluid)
+sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *fluid, uint32_t *set); /* fluid null: all defaults */
+
+/* One particle: position x (m), velocity v (m/s, null: 0), density rho (kg/m^3, 0: rho0). Ids count from 0 in the
+   order of adding. id may be null. */
+#define sph_add_particle SPH_NAME(add_particle)
+sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const double *v, double rho, uint32_t *id);
+
+/* Lattices of the configured spacing: particle centres half a spacing inside the shape's low corner.
+   A box; a ball (disc in 2-D); a ring (shell) between two radii; a polygon of n corners (2-D, even-odd rule).
+   v (null: at rest) is given to all. All or nothing: on failure no particle was added. */
+#define sph_add_box SPH_NAME(add_box)
+sph_status sph_add_box(sph_sim *sim, uint32_t set, const double *lo, const double *hi, const double *v);
+#define sph_add_ring SPH_NAME(add_ring)
+sph_status sph_add_ring(sph_sim *sim, uint32_t set, const double *centre, double inner, double outer, const double *v);
+#if SPH_DIM == 2
+#define sph_add_polygon SPH_NAME(add_polygon)
+sph_status sph_add_polygon(sph_sim *sim, uint32_t set, const double (*corner)[2], uint32_t n, const double *v);
+#endif
+
+/* Sets velocity and density of a particle between steps by a function of its position: an initial field. */
+typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho);
+#define sph_apply_field SPH_NAME(apply_field)
+sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx);
+
+/* Gives every particle of the set the density that hydrostatic pressure asks for below `surface` (m, along the
+   axis of gravity, which must be an axis), so that a tank starts in balance. */
+#define sph_apply_hydrostatic SPH_NAME(apply_hydrostatic)
+sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface);
+
+/* ---- 6 walls ---------------------------------------------------------------------------------------
+   LENNARD_JONES     one row on the wall, force D((r0/r)^12 - (r0/r)^6) r/r^2 for r < r0 = dx (Gray 2.38); strength
+                     is D (m^2/s^2), usually g times the depth
+   KERNEL_FORCE      one row with normals, f(r_perp) P(r_par) n (Gray 2.39-2.41 with (2/3)/h); strength is his nu
+                     (-), usually 0.01
+   MONAGHAN_KOS      one row with normals, (A/sqrt q)(1 - q) P(r_par) n for q = r_perp/2dx < 1 (Wickramarachchi
+                     6.10-6.12); strength is A (m/s^2), usually 0.01 c0^2/dx
+   GHOST             layers to the kernel's support that take part in every sum; mirror velocity in the viscosity,
+                     beta_max 1.5 (Gray 2.42-2.43, after Morris, Fox & Zhu 1997); density evolved by
+                     continuity ("compressible") or held at rho0 ("incompressible")
+   ADAMI             the same layers with pressure extrapolated from the fluid, and for no slip the velocity too
+                     (Adami, Hu & Adams 2012) */
+enum { SPH_WALL_LENNARD_JONES, SPH_WALL_KERNEL_FORCE, SPH_WALL_MONAGHAN_KOS, SPH_WALL_GHOST, SPH_WALL_ADAMI, SPH_WALLS };
+
+/* Displacement (m) and velocity (m/s) of a moving wall at time t (s); must depend on its arguments only. */
+typedef void (*sph_motion)(void *ctx, double t, double *displacement, double *velocity);
+
+/* A motion given as a table, linear between rows; before the first and after the last row the wall rests. Pass
+   sph_motion_table as the motion and a pointer to this as its ctx. Times must increase. */
+typedef struct sph_table {
+    uint32_t rows, axis;
+    const double *t, *x; /* s, m */
+} sph_table;
+#define sph_motion_table SPH_NAME(motion_table)
+void sph_motion_table(void *ctx, double t, double *displacement, double *velocity);
+
+typedef struct sph_wall {
+    uint32_t kind;       /* SPH_WALL_... */
+    bool compressible;   /* GHOST: density by continuity instead of held */
+    bool no_slip;        /* GHOST, ADAMI: viscosity acts between fluid and wall */
+    double strength;     /* see above; 0: the usual value (sound speed, spacing and gravity of the configuration) */
+    uint32_t layers;     /* GHOST, ADAMI; 0: as many as the support needs */
+    sph_motion motion;   /* null: fixed */
+    void *motion_ctx;
+} sph_wall;
+#define sph_wall_default SPH_NAME(wall_default)
+sph_wall sph_wall_default(void); /* ADAMI, free slip, fixed */
+
+/* Faces of a box as bits: low face of axis k: SPH_LOW(k), high face: SPH_HIGH(k). */
+#define SPH_LOW(k) (1u << (2u * (k)))
+#define SPH_HIGH(k) (2u << (2u * (k)))
+
+/* The chosen faces of a box as one wall group. inside: the fluid is inside (a tank; corners where two chosen faces
+   meet get the diagonal normal of Gray figure 2.4); else outside (an obstacle: its interior is filled). Works in
+   1-D, 2-D and 3-D. *group (may be null) names it for sph_remove_wall and sph_wall_motion. */
+#define sph_add_wall_box SPH_NAME(add_wall_box)
+sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo, const double *hi, uint32_t faces,
+                            bool inside, uint32_t *group);
+#if SPH_DIM == 2
+/* A straight wall from a to b; the fluid is on its left. */
+#define sph_add_wall_segment SPH_NAME(add_wall_segment)
+sph_status sph_add_wall_segment(sph_sim *sim, const sph_wall *wall, const double *a, const double *b, uint32_t *group);
+#endif
+#if SPH_DIM == 3
+/* A flat wall: the parallelogram origin + s e1 + t e2; the fluid is on the side of e1 x e2. */
+#define sph_add_wall_plane SPH_NAME(add_wall_plane)
+sph_status sph_add_wall_plane(sph_sim *sim, const sph_wall *wall, const double *origin, const double *e1,
+                              const double *e2, uint32_t *group);
+#endif
+/* Takes a wall group away (a gate), now or, with sph_remove_wall_at, when time reaches t. */
+#define sph_remove_wall SPH_NAME(remove_wall)
+sph_status sph_remove_wall(sph_sim *sim, uint32_t group);
+#define sph_remove_wall_at SPH_NAME(remove_wall_at)
+sph_status sph_remove_wall_at(sph_sim *sim, uint32_t group, double t);
+
+/* ---- 7 step ----------------------------------------------------------------------------------------
+   One step is a fixed list of passes. A step that fails returns a status, names cause and particle in sph_last, and
+   leaves the state bit for bit as it was; the host may dump it, change something and go on. */
+
+/* Orders the particles, extrapolates into walls and computes the first forces. Called by the first step if the
+   host did not; call it to read forces or take a hash before the first step. */
+#define sph_ready SPH_NAME(ready)
+sph_status sph_ready(sph_sim *sim);
+
+/* One whole step. sph_step_to shortens the step so that time ends at t_end exactly (and never overshoots). */
+#define sph_step SPH_NAME(step)
+sph_status sph_step(sph_sim *sim);
+#define sph_step_to SPH_NAME(step_to)
+sph_status sph_step_to(sph_sim *sim, double t_end);
+
+/* Part of a step: does chunks until about `budget` work units are spent (one unit: one candidate pair, or one particle
+   in a local pass), then returns SPH_NOT_DONE; SPH_OK when the step is complete. Until then the state that can be
+   read is that of the step's beginning. The last chunk may pass the budget by at most
+   sph_usage.cell_particles * 3^DIM * 16 * cell_particles units. The work of a whole step is at most
+   E * n * (3^DIM * c) + 8 n + cells for E sweeps, n particles and at most c particles in a cell. */
+#define sph_step_slice SPH_NAME(step_slice)
+sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
+/* Gives up a step that was begun in slices. */
+#define sph_step_cancel SPH_NAME(step_cancel)
+void sph_step_cancel(sph_sim *sim);
+
+/* What the latest complete step did. */
+typedef struct sph_step_info {
+    uint64_t step;        /* steps done since init */
+    double time, dt;      /* s, after the step; the step's size */
+    uint32_t limit;       /* SPH_LIMIT_... that set dt */
+    double limit_dt[SPH_LIMITS]; /* what each limit allows for the next step (s); 0 where it does not apply */
+    uint64_t pairs;       /* candidate pairs looked at */
+    uint64_t work;        /* work units */
+    uint32_t passes;      /* passes run */
+    uint32_t left, crossed, put_back, reflected; /* particles: since init */
+} sph_step_info;
+#define sph_get_step SPH_NAME(get_step)
+void sph_get_step(const sph_sim *sim, sph_step_info *out);
+#define sph_limit_text SPH_NAME(limit_text)
+const char *sph_limit_text(uint32_t limit);
+#define sph_time SPH_NAME(time)
+double sph_time(const sph_sim *sim);
+
+/* ---- 8 reading the state ---------------------------------------------------------------------------*/
+enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL };
+typedef struct sph_particle {
+    uint32_t id, set, role;
+    double x[SPH_DIM], v[SPH_DIM], a[SPH_DIM]; /* m, m/s, m/s^2 (0 before the first forces) */
+    double rho, p, mass;                      /* kg/m^3, Pa, kg */
+} sph_particle;
+#define sph_count SPH_NAME(count)
+uint32_t sph_count(const sph_sim *sim); /* particles in the simulation, walls included */
+/* Particle number i in 0..count-1, in the order of the arrays (by cell, then id). */
+#define sph_get SPH_NAME(get)
+sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
+
+/* ---- 9 books, probes, gauges -----------------------------------------------------------------------*/
+typedef struct sph_totals {
+    uint32_t fluid, wall;        /* particles */
+    double mass;                 /* kg, fluid */
+    double momentum[SPH_DIM];    /* kg m/s */
+    double angular[3];           /* kg m^2/s about the origin; in 2-D only [2], in 1-D none */
+    double kinetic;              /* J */
+    double potential;            /* J, in gravity, from height 0 */
+    double internal;             /* J, compression from rho0 */
+    double wall_work;            /* J, done on the fluid by moving walls since init (books) */
+    double body_work;            /* J, done by the body force beside gravity (books) */
+    double dissipated;           /* J, by viscosity (books) */
+    double diffused;             /* J, taken from the internal energy by density diffusion (books) */
+    double removed_mass;         /* kg that left the domain or was removed */
+    double max_speed, min_density, max_density;
+} sph_totals;
+/* Sums over the fluid in double precision, in index order. */
+#define sph_get_totals SPH_NAME(get_totals)
+void sph_get_totals(const sph_sim *sim, sph_totals *out);
+
+/* Values at a point x (m): Shepard-normalised sums over the fluid. `cover` = sum (m/rho) W is 1 inside the fluid
+   and falls to 0 outside; where it is below 1e-6 the values are 0. */
+typedef struct sph_probe_value {
+    double cover, rho, p, v[SPH_DIM];
+} sph_probe_value;
+#define sph_probe SPH_NAME(probe)
+sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out);
+/* n points evenly from a to b, both included. */
+#define sph_probe_line SPH_NAME(probe_line)
+sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, uint32_t n, sph_probe_value *out);
+/* Height of the water along `axis` through x: the highest place where cover passes 1/2; the domain's low end if
+   there is no water. x[axis] is ignored. */
+#define sph_gauge SPH_NAME(gauge)
+sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height);
+/* Largest and smallest coordinate of the fluid along an axis, by particle centres. */
+#define sph_extent SPH_NAME(extent)
+void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high);
+
+/* Value and radial derivative of a smoothing kernel in this dimension: W (1/m^DIM) and dW/dr at distance r for smoothing
+   length h; and its support in units of h. For tests, probes and tools. */
+#define sph_kernel_value SPH_NAME(kernel_value)
+sph_status sph_kernel_value(uint32_t kernel, double r, double h, double *w, double *dw);
+#define sph_kernel_support SPH_NAME(kernel_support)
+double sph_kernel_support(uint32_t kernel);
+
+/* ---- 10 hash ---------------------------------------------------------------------------------------
+   64 bits over every array and scalar that the next step reads. Equal on every machine. */
+#define sph_hash SPH_NAME(hash)
+uint64_t sph_hash(const sph_sim *sim);
+
+/* ---- 11 dump and restore ---------------------------------------------------------------------------
+   Little-endian on every machine, versioned, self-describing, checksummed by section (layout: dump.c). The sink and
+   source get pieces of at most SPH_PIECE bytes and return false to fail. A full dump (fields SPH_DUMP_FULL) restores
+   a run that goes on with the same bits; a reduced one carries the chosen fields for pictures. */
+#define SPH_PIECE 256u
+typedef bool (*sph_sink)(void *ctx, const void *bytes, size_t n);
+typedef bool (*sph_source)(void *ctx, void *bytes, size_t n); /* must fill n bytes or return false */
+#define SPH_DUMP_VELOCITY 1u
+#define SPH_DUMP_DENSITY 2u
+#define SPH_DUMP_PRESSURE 4u
+#define SPH_DUMP_ACCELERATION 8u
+#define SPH_DUMP_PICTURE 7u /* position, set, id always */
+#define SPH_DUMP_FULL 0x80000000u
+#define sph_dump SPH_NAME(dump)
+sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ctx);
+/* Restores a full dump into a simulation that was initialised with the same configuration and the same sets and walls.
+   Reads the stream once into the spare half of the arena; on any failure the simulation is as it was. */
+#define sph_restore SPH_NAME(restore)
+sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx);
+
+#endif

@@ -1,0 +1,634 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* step.c: the integrators as lists of passes, the time step, slices, threads, and what happens when a step fails.
+
+   A step copies the scalars `now` to `next`, runs its passes from buffer cur into another, and commits by making `next`
+   and that buffer current. Until then nothing that the next step would read has changed; failing is forgetting. */
+#include "fluid.h"
+
+SPH_INLINE double least(double a, double b) { return b < a ? b : a; }
+
+/* ---- failures seen by threads ---- */
+
+void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value)
+{
+    if (t->fail.status == SPH_OK || id < t->fail.particle)
+        t->fail = (sph_fail){s, id, value};
+}
+
+/* ---- stages: passes that only say where the next sort goes ---- */
+
+static uint32_t spare(const sph_sim *sim, uint32_t a, uint32_t b)
+{
+    for (uint32_t k = 0; k < sim->buffers; k++)
+        if (k != a && k != b)
+            return k;
+    return 0;
+}
+
+static sph_status first_stage(sph_sim *sim, uint32_t mode)
+{
+    sph_begin_sort(sim, sim->cur, spare(sim, sim->cur, sim->cur), sim->now.count, sim->table_valid, mode);
+    return SPH_OK;
+}
+static sph_status begin_copy(sph_sim *sim) { return first_stage(sim, SPH_ADV_COPY); }
+static sph_status begin_pc(sph_sim *sim) { return first_stage(sim, SPH_ADV_PC); }
+static sph_status begin_kdk(sph_sim *sim) { return first_stage(sim, SPH_ADV_KDK); }
+static sph_status begin_leap(sph_sim *sim) { return first_stage(sim, SPH_ADV_LEAP); }
+static sph_status begin_rk(sph_sim *sim)
+{
+    sph_begin_sort(sim, sim->dst, spare(sim, sim->cur, sim->dst), sim->next.count, true, SPH_ADV_RK);
+    return SPH_OK;
+}
+static const sph_pass pass_begin_copy = {"begin", NULL, NULL, begin_copy, NULL};
+static const sph_pass pass_begin_pc = {"begin", NULL, NULL, begin_pc, NULL};
+static const sph_pass pass_begin_kdk = {"begin", NULL, NULL, begin_kdk, NULL};
+static const sph_pass pass_begin_leap = {"begin", NULL, NULL, begin_leap, NULL};
+static const sph_pass pass_begin_rk = {"begin second stage", NULL, NULL, begin_rk, NULL};
+
+/* ---- local passes: what is done to each particle after the sums ---- */
+
+typedef struct span {
+    uint32_t first, last;
+} span;
+static span chunk_span(const sph_sim *sim, uint32_t chunk)
+{
+    span s = {chunk * SPH_LOCAL_CHUNK, (chunk + 1) * SPH_LOCAL_CHUNK};
+    s.last = s.last < sim->next.count ? s.last : sim->next.count;
+    return s;
+}
+
+/* indices become ids, and walls get the zeros that sums did not write */
+static void settle(const sph_sim *sim, uint32_t i)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const sph_set *s = &sim->set[b->set[0][i]];
+    b->id[0][i] = sim->buf[sim->src].id[0][b->id[0][i]];
+    if (s->role == SPH_ROLE_FLUID)
+        return;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        b->acc[k][i] = 0;
+        if (b->xsph[k])
+            b->xsph[k][i] = 0;
+    }
+    if (!s->compressible)
+        b->drho[0][i] = 0;
+    for (uint32_t k = 0; sim->cfg.books && k < SPH_POWERS; k++)
+        sim->power[k][i] = 0;
+}
+
+static void settle_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const span s = chunk_span(sim, chunk);
+    for (uint32_t i = s.first; i < s.last; i++)
+        settle(sim, i);
+    t->work += s.last - s.first;
+}
+
+/* velocities and densities that must not go on: too large, or a density that no equation of state has */
+static void check_span(sph_sim *sim, span s, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    int fine = 1;
+    for (uint32_t i = s.first; i < s.last; i++) {
+        sph_real v2 = 0, d = b->rho[0][i];
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            v2 += b->vel[k][i] * b->vel[k][i];
+        fine &= (v2 < SPH_LIMIT_SQUARE) & (d > (sph_real)-0.9) & (d < 99);
+    }
+    for (uint32_t i = s.first; !fine && i < s.last; i++) {
+        sph_real v2 = 0, d = b->rho[0][i];
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            v2 += b->vel[k][i] * b->vel[k][i];
+        if (!(v2 < SPH_LIMIT_SQUARE) || d - d != 0)
+            sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)v2);
+        else if (!(d > (sph_real)-0.9 && d < 99))
+            sph_fail_note(t, SPH_DENSITY_LOST, b->id[0][i], (double)d);
+    }
+}
+
+/* sums of powers for the books: one row a chunk, added up in order of chunks afterwards */
+static void sum_powers(sph_sim *sim, uint32_t chunk, span s)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    double sum[SPH_POWERS] = {0};
+    for (uint32_t i = s.first; i < s.last; i++) {
+        if (b->set[0][i] == SPH_DEAD)
+            continue;
+        const sph_set *set = &sim->set[b->set[0][i]];
+        double d = (double)b->rho[0][i], rho = set->rho0 * (1 + d);
+        for (uint32_t k = 0; k < SPH_POWERS; k++) {
+            double p = set->mass * (double)sim->power[k][i];
+            sum[k] += k == 2 ? p * -sph_pressure(sim, set, d) / (rho * rho) : p; /* energy that diffusion takes */
+        }
+    }
+    for (uint32_t k = 0; k < SPH_POWERS; k++)
+        sim->partial[chunk * SPH_POWERS + k] = sum[k];
+}
+
+static void finish_span(sph_sim *sim, uint32_t chunk, span s, sph_thread *t)
+{
+    for (uint32_t i = s.first; i < s.last; i++)
+        settle(sim, i);
+    sph_cross_walls(sim, s.first, s.last, t);
+    check_span(sim, s, t);
+    if (sim->cfg.books)
+        sum_powers(sim, chunk, s);
+    t->work += s.last - s.first;
+}
+
+/* v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28, 2.29);
+   with the half-step velocity of kick-drift-kick: v = damping (v_h + dt/2 a) */
+static void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
+{
+    const span s = chunk_span(sim, chunk);
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const sph_real half = (sph_real)sim->dt * (sph_real)0.5, g = (sph_real)sim->cfg.damping;
+    for (uint32_t i = s.first; i < s.last; i++) {
+        const uint32_t p = b->id[0][i];
+        const sph_set *set = &sim->set[b->set[0][i]];
+        const bool fluid = set->role == SPH_ROLE_FLUID;
+        if (fluid)
+            SPH_UNROLL
+            for (uint32_t k = 0; k < SPH_DIM; k++) {
+                const sph_real a = kdk ? b->acc[k][i] : b->acc[k][i] - o->acc[k][p];
+                b->vel[k][i] = g * (b->vel[k][i] + half * a);
+            }
+        if (fluid || set->compressible)
+            b->rho[0][i] = b->rho[0][i] + half * (b->drho[0][i] - o->drho[0][p]);
+    }
+    finish_span(sim, chunk, s, t);
+}
+static void correct_pc_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, false); }
+static void correct_kdk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, true); }
+
+/* leap-frog (Powell 2012 algorithm 1.1): the density goes a whole step with the rates of the half-step velocity */
+static void leap_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const span s = chunk_span(sim, chunk);
+    const sph_buffer *b = &sim->buf[sim->dst];
+    for (uint32_t i = s.first; i < s.last; i++) {
+        const sph_set *set = &sim->set[b->set[0][i]];
+        if (set->role == SPH_ROLE_FLUID || set->compressible)
+            b->rho[0][i] += (sph_real)sim->dt * b->drho[0][i];
+    }
+    t->work += s.last - s.first;
+}
+/* then the velocity a whole step with the new acceleration */
+static void leap_velocity_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const span s = chunk_span(sim, chunk);
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const sph_real dt = (sph_real)sim->dt, g = (sph_real)sim->cfg.damping;
+    for (uint32_t i = s.first; i < s.last; i++)
+        if (sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
+            for (uint32_t k = 0; k < SPH_DIM; k++)
+                b->vel[k][i] = g * (b->vel[k][i] + dt * b->acc[k][i]);
+    finish_span(sim, chunk, s, t);
+}
+
+/* x moves by d (m); the faces' rules apply as in the sort */
+static void place(sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    sph_pos q[SPH_DIM];
+    sph_real v[SPH_DIM];
+    bool near = true;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        double s = d[k] / sim->quantum;
+        near &= sph_abs(d[k]) < sim->length[k] / sim->ncell[k];
+        q[k] = from[k] + (sph_pos)(near ? s < 0 ? s - 0.5 : s + 0.5 : 0);
+        v[k] = b->vel[k][i];
+    }
+    if (!near)
+        sph_fail_note(t, d[0] - d[0] == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE,
+                      sim->buf[sim->src].id[0][b->id[0][i]], d[0]);
+    int r = sph_enforce_faces(sim, q, v);
+    if (r == 2) {
+        t->left++;
+        if (sim->cfg.on_leave == SPH_FAIL)
+            sph_fail_note(t, SPH_OUT_OF_DOMAIN, sim->buf[sim->src].id[0][b->id[0][i]], (double)q[0] * sim->quantum);
+        else
+            b->set[0][i] = SPH_DEAD;
+        return;
+    }
+    t->reflected += r == 1;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        b->pos[k][i] = q[k];
+        b->vel[k][i] = v[k];
+    }
+}
+
+/* the second halves of the Runge-Kutta forms, as printed: 3.86-3.87, and 3.92 */
+static void rk_particle(sph_sim *sim, uint32_t i, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const bool momentum = sim->cfg.integrator == SPH_RUNGE_KUTTA_MOMENTUM;
+    const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5;
+    const uint32_t p = b->id[0][i];
+    const sph_set *set = &sim->set[b->set[0][i]];
+    if (set->role == SPH_ROLE_FLUID || set->compressible) {
+        const sph_real r = o->rho[0][p], d = b->drho[0][i];
+        const sph_real mid = r + half * d;
+        b->rho[0][i] = momentum ? r + dt * d : 2 * mid - r;
+    }
+    if (set->role != SPH_ROLE_FLUID)
+        return;
+    double move[SPH_DIM];
+    sph_pos from[SPH_DIM];
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const sph_real v = o->vel[k][p], x = b->xsph[k] ? b->xsph[k][i] : 0;
+        const sph_real mid = v + half * b->acc[k][i];
+        const sph_real u = momentum ? (sph_real)0.5 * ((v + dt * o->acc[k][p]) + v) : b->vel[k][i];
+        move[k] = (double)dt * (double)(u + x);
+        from[k] = o->pos[k][p];
+        b->vel[k][i] = (sph_real)sim->cfg.damping * (momentum ? v + dt * b->acc[k][i] : 2 * mid - v);
+    }
+    place(sim, i, move, from, t);
+}
+static void rk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const span s = chunk_span(sim, chunk);
+    for (uint32_t i = s.first; i < s.last; i++)
+        rk_particle(sim, i, t);
+    /* ids are settled for the dead too */
+    const sph_buffer *b = &sim->buf[sim->dst];
+    for (uint32_t i = s.first; i < s.last; i++)
+        if (b->set[0][i] == SPH_DEAD)
+            b->id[0][i] = sim->buf[sim->src].id[0][b->id[0][i]];
+        else
+            settle(sim, i);
+    sph_cross_walls(sim, s.first, s.last, t);
+    check_span(sim, s, t);
+    if (sim->cfg.books)
+        sum_powers(sim, chunk, s);
+    t->work += s.last - s.first;
+}
+
+/* books: powers integrate by the trapezoidal rule */
+static sph_status add_books(sph_sim *sim)
+{
+    if (!sim->cfg.books)
+        return SPH_OK;
+    for (uint32_t k = 0; k < SPH_POWERS; k++) {
+        double sum = 0;
+        for (uint32_t c = 0; c < sph_local_chunks(sim); c++)
+            sum += sim->partial[c * SPH_POWERS + k];
+        sim->next.work[k] += 0.5 * sim->dt * (sim->now.power[k] + sum);
+        sim->next.power[k] = sum;
+    }
+    return SPH_OK;
+}
+static sph_status prime_books(sph_sim *sim)
+{
+    double keep[SPH_POWERS];
+    memcpy(keep, sim->next.work, sizeof keep);
+    sph_status st = add_books(sim);
+    memcpy(sim->next.work, keep, sizeof keep);
+    return st;
+}
+static void prime_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    settle_chunk(sim, chunk, t);
+    if (sim->cfg.books)
+        sum_powers(sim, chunk, chunk_span(sim, chunk));
+}
+
+static const sph_pass pass_settle = {"settle", sph_local_chunks, settle_chunk, NULL, NULL};
+static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, prime_books, NULL};
+static const sph_pass pass_correct_pc = {"correct", sph_local_chunks, correct_pc_chunk, add_books, NULL};
+static const sph_pass pass_correct_kdk = {"kick", sph_local_chunks, correct_kdk_chunk, add_books, NULL};
+static const sph_pass pass_leap_density = {"density", sph_local_chunks, leap_density_chunk, NULL, NULL};
+static const sph_pass pass_leap_velocity = {"velocity", sph_local_chunks, leap_velocity_chunk, add_books, NULL};
+static const sph_pass pass_rk = {"advance", sph_local_chunks, rk_chunk, add_books, NULL};
+
+/* ---- the one list of passes: what each integrator does, in order ---- */
+
+#define SORT &sph_pass_count, &sph_pass_scatter
+#define FILTER &sph_pass_shepard, &sph_pass_summation, &sph_pass_copy_density
+#define FORCES &sph_pass_adami, &sph_pass_force
+static const sph_pass *const prime_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_prime, NULL};
+static const sph_pass *const pc_program[] = {&pass_begin_pc, SORT, FILTER, FORCES, &pass_correct_pc, NULL};
+static const sph_pass *const kdk_program[] = {&pass_begin_kdk, SORT, FILTER, FORCES, &pass_correct_kdk, NULL};
+static const sph_pass *const leap_program[] = {&pass_begin_leap, SORT, FORCES, &pass_leap_density, FILTER,
+                                               FORCES, &pass_leap_velocity, NULL};
+static const sph_pass *const rk_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_settle,
+                                             &pass_begin_rk, SORT, FILTER, FORCES, &pass_rk, NULL};
+static const sph_pass *const *const programs[SPH_INTEGRATORS] = {pc_program, kdk_program, leap_program, rk_program,
+                                                                 rk_program};
+
+/* ---- time step ---- */
+
+static double fastest_sound(const sph_sim *sim)
+{
+    double c = sim->cfg.sound_speed;
+    for (uint32_t s = 0; s < sim->sets; s++)
+        c = sim->set[s].c0 > c ? sim->set[s].c0 : c;
+    return sim->cfg.eos == SPH_TAIT_GRAY ? c * 2.6457513110645905905 : c; /* sqrt 7 */
+}
+
+/* what each limit allows after a force sweep (Gray 2001 eq 2.30, Wickramarachchi 2009 eqs 3.88-3.90) */
+static void find_limits(const sph_sim *sim, double *l)
+{
+    const sph_config *c = &sim->cfg;
+    const double h = c->smoothing_length, c0 = fastest_sound(sim), a = (double)sim->now.peaks.acc;
+    double nu = c->viscosity == SPH_MORRIS ? c->nu : c->viscosity ? c->alpha * c0 * h / (2 * (SPH_DIM + 2)) : 0, g = 0;
+    for (int k = 0; k < SPH_DIM; k++)
+        g += c->gravity[k] * c->gravity[k];
+    g = __builtin_sqrt(g);
+    memset(l, 0, SPH_LIMITS * sizeof *l);
+    l[SPH_LIMIT_FIXED] = c->dt;
+    if (c->dt > 0)
+        return;
+    l[SPH_LIMIT_COURANT] = c->cfl * h / (c0 + h * (double)sim->now.peaks.mu);
+    if (nu > 0)
+        l[SPH_LIMIT_VISCOUS] = c->viscous_factor * h * h / nu;
+    if (a > 0)
+        l[SPH_LIMIT_FORCE] = c->force_factor * __builtin_sqrt(h / a);
+    l[SPH_LIMIT_GRAVITY] = g > 0 ? c->gravity_factor * h / (c0 + __builtin_sqrt(g * h)) : 0;
+    l[SPH_LIMIT_CEILING] = c->dt_max;
+}
+
+static sph_status choose_dt(sph_sim *sim, double t_end)
+{
+    double dt = 1e300;
+    find_limits(sim, sim->limit_dt);
+    for (uint32_t k = 0; k < SPH_LIMITS; k++)
+        if (sim->limit_dt[k] > 0 && sim->limit_dt[k] < dt) {
+            dt = sim->limit_dt[k];
+            sim->limit = k;
+        }
+    if (!(dt > 0) || dt < sim->cfg.dt_min || sim->now.time + dt == sim->now.time)
+        return sph_error(sim, SPH_STEP_COLLAPSED, sph_limit_text(sim->limit), "a step above dt_min", dt,
+                         SPH_NO_PARTICLE);
+    if (t_end - sim->now.time <= dt * (1 + 1e-9)) {
+        dt = t_end - sim->now.time;
+        sim->limit = SPH_LIMIT_TARGET;
+        sim->next.time = t_end;
+    } else {
+        sim->next.time = sim->now.time + dt;
+    }
+    sim->dt = dt;
+    return SPH_OK;
+}
+
+/* ---- running a program ---- */
+
+static uint32_t thread_count(const sph_sim *sim)
+{
+    uint32_t t = sim->cfg.port.parallel ? sim->cfg.port.threads : 1;
+    return t < 1 ? 1 : t > sim->cfg.max_threads ? sim->cfg.max_threads : t;
+}
+
+static void clear_threads(sph_sim *sim)
+{
+    for (uint32_t t = 0; t < sim->cfg.max_threads; t++) {
+        sph_thread *s = &sim->thread[t];
+        s->work = s->pairs = 0;
+        s->peaks = (sph_peaks){0, 0, 0};
+        s->fail = (sph_fail){SPH_OK, SPH_NO_PARTICLE, 0};
+        s->crossed = s->put_back = s->reflected = s->left = s->removed = s->widest = 0;
+    }
+}
+
+static sph_status load_program(sph_sim *sim, const sph_pass *const *p)
+{
+    sim->passes = 0;
+    for (; *p; p++)
+        sim->program[sim->passes++] = *p;
+    sim->pc = sim->chunk = sim->chunks = 0;
+    sim->work = sim->pairs = 0;
+    sim->begun = true;
+    clear_threads(sim);
+    return SPH_OK;
+}
+
+static sph_status begin_prime(sph_sim *sim)
+{
+    if (sim->now.count == 0)
+        return sph_error(sim, SPH_BAD_STATE, "step", "after particles were added", 0, SPH_NO_PARTICLE);
+    sim->next = sim->now;
+    sim->dt = 0;
+    sph_status st = sph_move_groups(sim, sim->now.time);
+    return st ? st : load_program(sim, prime_program);
+}
+
+static sph_status begin_step(sph_sim *sim)
+{
+    sim->next = sim->now;
+    sph_status st = choose_dt(sim, sim->t_end);
+    if (st)
+        return st;
+    sim->next.step++;
+    sim->next.dt_last = sim->dt;
+    if ((st = sph_move_groups(sim, sim->next.time)) != SPH_OK)
+        return st;
+    return load_program(sim, programs[sim->cfg.integrator]);
+}
+
+typedef struct job {
+    sph_sim *sim;
+    uint32_t first;
+} job;
+static void run_job(void *arg, uint32_t chunk, uint32_t thread)
+{
+    const job *j = arg;
+    j->sim->program[j->sim->pc]->run(j->sim, j->first + chunk, &j->sim->thread[thread]);
+}
+
+/* runs chunks [chunk, chunk + n) of the current pass */
+static void run_chunks(sph_sim *sim, uint32_t n)
+{
+    job j = {sim, sim->chunk};
+    if (n > 1 && thread_count(sim) > 1)
+        sim->cfg.port.parallel(sim->cfg.port.ctx, run_job, &j, n);
+    else
+        for (uint32_t c = 0; c < n; c++)
+            run_job(&j, c, 0);
+    sim->chunk += n;
+}
+
+/* adds up what the threads saw in a pass and starts them afresh; none of it depends on order */
+static sph_fail gather_threads(sph_sim *sim)
+{
+    sph_fail fail = {SPH_OK, SPH_NO_PARTICLE, 0};
+    sph_peaks peaks = {0, 0, 0};
+    for (uint32_t t = 0; t < sim->cfg.max_threads; t++) {
+        const sph_thread *s = &sim->thread[t];
+        sim->work += s->work;
+        sim->pairs += s->pairs;
+        peaks.mu = s->peaks.mu > peaks.mu ? s->peaks.mu : peaks.mu;
+        peaks.acc = s->peaks.acc > peaks.acc ? s->peaks.acc : peaks.acc;
+        peaks.speed = s->peaks.speed > peaks.speed ? s->peaks.speed : peaks.speed;
+        if (s->fail.status && (!fail.status || s->fail.particle < fail.particle))
+            fail = s->fail;
+        sim->next.crossed += s->crossed;
+        sim->next.put_back += s->put_back;
+        sim->next.reflected += s->reflected;
+        sim->next.left += s->left + s->removed;
+        sim->mark_cell = s->widest > sim->mark_cell ? s->widest : sim->mark_cell;
+    }
+    if (sim->program[sim->pc] == &sph_pass_force)
+        sim->next.peaks = peaks;
+    clear_threads(sim);
+    return fail;
+}
+
+static const char *fail_quantity(sph_status s)
+{
+    switch (s) {
+    case SPH_NOT_FINITE: return "a rate or a squared magnitude";
+    case SPH_DENSITY_LOST: return "relative density excess";
+    case SPH_OUT_OF_DOMAIN: return "x from the domain's low corner (m)";
+    case SPH_MOVED_TOO_FAR: return "cells moved in one step";
+    case SPH_WALL_CROSSED: return "depth inside the wall (m)";
+    default: return "";
+    }
+}
+
+/* a failed step is forgotten: cur, now and the buffer cur were never written */
+static sph_status give_up(sph_sim *sim, sph_status st)
+{
+    sim->begun = false;
+    return st;
+}
+
+static sph_status end_pass(sph_sim *sim)
+{
+    const sph_pass *p = sim->program[sim->pc];
+    sph_fail fail = gather_threads(sim);
+    if (fail.status)
+        return sph_error(sim, fail.status, fail_quantity(fail.status), "", fail.value, fail.particle);
+    sph_status st = p->end ? p->end(sim) : SPH_OK;
+    if (st)
+        return st;
+    if (sim->cfg.stage_log)
+        sim->cfg.stage_log(sim->cfg.stage_ctx, sim->next.step, p->name,
+                           sph_hash_buffer(sim, &sim->buf[sim->dst], sim->next.count));
+    sim->pc++;
+    sim->chunk = sim->chunks = 0;
+    return SPH_OK;
+}
+
+static void commit(sph_sim *sim)
+{
+    const bool prime = sim->next.step == sim->now.step;
+    const double lost = sim->next.left > sim->now.left ? (double)(sim->next.left - sim->now.left) : 0;
+    sim->next.removed_mass += lost * (sim->sets ? sim->set[0].mass : 0);
+    sim->next.primed = true;
+    sim->next.started |= !prime;
+    sim->now = sim->next;
+    sim->cur = sim->dst;
+    sim->table_valid = true;
+    sim->begun = false;
+    if (!prime) {
+        sim->last_passes = sim->passes;
+        sim->last_work = sim->work;
+        sim->last_pairs = sim->pairs;
+        sim->last_limit = sim->limit;
+        sim->last_dt = sim->dt;
+        sim->mark_work = sim->work > sim->mark_work ? sim->work : sim->mark_work;
+    }
+}
+
+/* Runs the program until its end (budget 0) or until about `budget` units are spent. */
+static sph_status run_program(sph_sim *sim, uint64_t budget)
+{
+    uint64_t spent = 0;
+    while (sim->pc < sim->passes) {
+        const sph_pass *p = sim->program[sim->pc];
+        if (p->wanted && !p->wanted(sim)) {
+            sim->pc++;
+            continue;
+        }
+        if (sim->chunk == 0)
+            sim->chunks = p->chunks ? p->chunks(sim) : 0;
+        while (sim->chunk < sim->chunks) {
+            uint32_t n = sim->chunks - sim->chunk;
+            if (budget) {
+                if (spent >= budget)
+                    return SPH_NOT_DONE;
+                n = n < thread_count(sim) ? n : thread_count(sim);
+            }
+            uint64_t before = 0, after = 0;
+            for (uint32_t t = 0; t < sim->cfg.max_threads; t++)
+                before += sim->thread[t].work;
+            run_chunks(sim, n);
+            for (uint32_t t = 0; t < sim->cfg.max_threads; t++)
+                after += sim->thread[t].work;
+            spent += after - before;
+        }
+        sph_status st = end_pass(sim);
+        if (st)
+            return give_up(sim, st);
+    }
+    commit(sim);
+    return SPH_OK;
+}
+
+/* ---- entry points ---- */
+
+sph_status sph_ready(sph_sim *sim)
+{
+    if (sim->begun)
+        return sph_error(sim, SPH_BAD_STATE, "sph_ready", "between steps", 0, SPH_NO_PARTICLE);
+    if (sim->now.primed)
+        return SPH_OK;
+    sph_status st = begin_prime(sim);
+    return st ? st : run_program(sim, 0);
+}
+
+static sph_status advance(sph_sim *sim, double t_end, uint64_t budget)
+{
+    sph_status st = SPH_OK;
+    if (!sim->begun) {
+        sim->t_end = t_end;
+        st = sim->now.primed ? begin_step(sim) : begin_prime(sim);
+        if (st)
+            return st;
+    }
+    return run_program(sim, budget);
+}
+
+sph_status sph_step_to(sph_sim *sim, double t_end)
+{
+    if (sim->begun)
+        return sph_error(sim, SPH_BAD_STATE, "sph_step", "after the step begun in slices", 0, SPH_NO_PARTICLE);
+    if (!(t_end > sim->now.time))
+        return sph_error(sim, SPH_BAD_ARGUMENT, "t_end", "after the present time", t_end, SPH_NO_PARTICLE);
+    sph_status st = sph_ready(sim);
+    return st ? st : advance(sim, t_end, 0);
+}
+
+sph_status sph_step(sph_sim *sim) { return sph_step_to(sim, 1e300); }
+
+sph_status sph_step_slice(sph_sim *sim, uint64_t budget)
+{
+    if (budget == 0)
+        return sph_error(sim, SPH_BAD_ARGUMENT, "budget", "> 0", 0, SPH_NO_PARTICLE);
+    const uint64_t step = sim->now.step;
+    sph_status st = advance(sim, 1e300, budget);
+    /* preparing the first forces is not a step: there is one to come */
+    return st == SPH_OK && sim->now.step == step ? SPH_NOT_DONE : st;
+}
+
+void sph_step_cancel(sph_sim *sim) { sim->begun = false; }
+
+double sph_time(const sph_sim *sim) { return sim->now.time; }
+
+void sph_get_step(const sph_sim *sim, sph_step_info *out)
+{
+    memset(out, 0, sizeof *out);
+    out->step = sim->now.step;
+    out->time = sim->now.time;
+    out->dt = sim->last_dt;
+    out->limit = sim->last_limit;
+    find_limits(sim, out->limit_dt);
+    out->pairs = sim->last_pairs;
+    out->work = sim->last_work;
+    out->passes = sim->last_passes;
+    out->left = sim->now.left;
+    out->crossed = sim->now.crossed;
+    out->put_back = sim->now.put_back;
+    out->reflected = sim->now.reflected;
+}

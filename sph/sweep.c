@@ -1,0 +1,364 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* sweep.c: fills tiles and hands them to a pass (see sweep.h). Costs no array beyond a thread's scratch.
+
+   The candidates of a cell come in this order: rows of cells from low to high, in a row first an image at the low end,
+   then the cells themselves from low to high, then an image at the high end, inside a cell by id. The particles of up to
+   three neighbouring cells of a row are contiguous in memory, so a row is one copy. */
+#include "sweep.h"
+
+/* how a run of particles is carried into the tile: x' = sign x + shift, v' = flip v */
+typedef struct image {
+    bool is_image;
+    sph_pos sign[SPH_DIM], shift[SPH_DIM];
+    sph_real flip[SPH_DIM];
+} image;
+
+typedef struct filling {
+    sph_sim *sim;
+    const sph_sweep *w;
+    sph_thread *t;
+    const sph_buffer *b;
+    sph_pos origin[SPH_DIM];
+    uint32_t homes;
+} filling;
+
+/* p from the relative density excess (Gray 2001 eq 2.25; Horner form, exact for small d) */
+SPH_INLINE vreal pressure(uint32_t eos, bool floor, vreal b, vreal d)
+{
+    vreal p;
+    switch (eos) {
+    case SPH_LINEAR: p = b * d; break;
+    case SPH_ISOTHERMAL: p = b * (1 + d); break;
+    default: p = b * (d * (7 + d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d))))))); break;
+    }
+    return floor ? v_pos(p) : p;
+}
+
+SPH_INLINE void put(sph_real *dst, vreal v) { v_store(dst, v); }
+
+/* positions of n particles from s, as reals relative to the home cell; whole vectors, so up to 7 beyond are written */
+static void load_x(const filling *f, const image *im, uint32_t s, uint32_t n, sph_real (*x)[SPH_TILE + 8], uint32_t at)
+{
+    const vreal quantum = v_set((sph_real)f->sim->quantum);
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const sph_pos *p = f->b->pos[k] + s;
+        if (!im->is_image) {
+            const vint o = v_set_int(f->origin[k]);
+            for (uint32_t j = 0; j < n; j += SPH_W)
+                put(x[k] + at + j, v_from_int(v_load_int(p + j) - o) * quantum);
+        } else {
+            const vint o = v_set_int(im->shift[k] - f->origin[k]), sg = v_set_int(im->sign[k]);
+            for (uint32_t j = 0; j < n; j += SPH_W)
+                put(x[k] + at + j, v_from_int(v_load_int(p + j) * sg + o) * quantum);
+        }
+    }
+}
+
+/* the rest of a tile's columns for a run of one set */
+static void load_state(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n, sph_tile *t)
+{
+    const sph_config *c = &f->sim->cfg;
+    const uint32_t at = t->n, eos = c->eos;
+    const bool ratio = c->scheme == SPH_STANDARD || c->scheme == SPH_STANDARD_WICK;
+    const vreal m = v_set(set->mass_r), r0 = v_set(set->rho0_r), b = v_set(set->b_r);
+    const sph_real *d = f->b->rho[0] + s;
+    const bool wall = set->role == SPH_ROLE_GHOST, iv = f->w->needs_iv;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const sph_real *v = f->b->vel[k] + s;
+        const vreal flip = v_set(im->flip[k]);
+        vreal wv = v_set(0);
+        if (wall)
+            wv = v_set((sph_real)f->sim->next.group[set->group].vel[k]) * flip;
+        for (uint32_t j = 0; j < n; j += SPH_W)
+            put(t->v[k] + at + j, wall ? wv : v_load(v + j) * flip);
+    }
+    for (uint32_t j = 0; j < n; j += SPH_W) {
+        const vreal e = v_load(d + j);
+        const vreal rho = (1 + e) * r0, p = pressure(eos, c->pressure_floor, b, e);
+        put(t->m + at + j, m);
+        put(t->rho + at + j, rho);
+        put(t->a + at + j, ratio ? p / (rho * rho) : p);
+        if (iv)
+            put(t->iv + at + j, 1 / rho);
+    }
+}
+
+/* normals, depths and viscous velocities of a run of ghost particles already loaded at `at` */
+static void load_ghost(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n, uint32_t at)
+{
+    sph_ghost_tile *g = &f->t->more;
+    const bool mirror = set->kind == SPH_WALL_GHOST;
+    const double q = f->sim->quantum;
+    double plane = 0; /* normal . (wall face - home cell), with the wall where it is now, and its image */
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        double moved = f->sim->next.group[set->group].moved[k] * q;
+        double o = (double)im->sign[k] * (set->origin[k] + moved) + (double)(im->shift[k] - f->origin[k]) * q;
+        plane += (double)im->sign[k] * set->normal[k] * o;
+    }
+    for (uint32_t j = 0; j < n; j++) {
+        double x = 0;
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            double nk = (double)im->sign[k] * set->normal[k];
+            x += nk * (double)f->t->ghost.x[k][at + j];
+            g->n[k][at + j] = (sph_real)nk;
+            g->u[k][at + j] = mirror || !set->no_slip ? f->t->ghost.v[k][at + j] : f->b->vel[k][s + j] * im->flip[k];
+        }
+        g->depth[at + j] = mirror ? (sph_real)(plane - x > 0 ? plane - x : 0) : 0;
+        g->vis[at + j] = set->no_slip ? 1 : 0;
+    }
+}
+
+/* makes the columns behind the last candidate harmless: far away, without mass */
+static void close_tile(const filling *f, sph_tile *t, bool ghost)
+{
+    const sph_real far = (sph_real)(64 * f->sim->support);
+    for (uint32_t j = t->n; j < t->n + SPH_LANES; j++) {
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            t->x[k][j] = far;
+            t->v[k][j] = 0;
+            if (ghost)
+                f->t->more.n[k][j] = f->t->more.u[k][j] = 0;
+        }
+        t->m[j] = t->a[j] = 0;
+        t->rho[j] = t->iv[j] = 1;
+        if (ghost)
+            f->t->more.depth[j] = f->t->more.vis[j] = 0;
+    }
+}
+
+/* works a class's tile off for all homes and empties it */
+static void flush(filling *f, uint32_t role)
+{
+    sph_thread *t = f->t;
+    uint32_t n = role == SPH_ROLE_FLUID ? t->fluid.n : role == SPH_ROLE_GHOST ? t->ghost.n : t->forces;
+    if (n == 0)
+        return;
+    if (role == SPH_ROLE_FLUID)
+        close_tile(f, &t->fluid, false);
+    else if (role == SPH_ROLE_GHOST)
+        close_tile(f, &t->ghost, true);
+    for (uint32_t h = 0; h < f->homes; h++)
+        f->w->tile(f->sim, t, h, role);
+    t->pairs += (uint64_t)n * f->homes;
+    if (role == SPH_ROLE_FLUID)
+        t->fluid.n = 0;
+    else if (role == SPH_ROLE_GHOST)
+        t->ghost.n = 0;
+    else
+        t->forces = 0;
+}
+
+/* first index in s..e whose set differs from that of s */
+static uint32_t run_end(const uint8_t *set, uint32_t s, uint32_t e)
+{
+    uint64_t first, next;
+    uint32_t i = s + 1;
+    memset(&first, set[s], sizeof first);
+    for (; i + 8 <= e; i += 8) {
+        memcpy(&next, set + i, sizeof next);
+        if (next != first)
+            break;
+    }
+    while (i < e && set[i] == set[s])
+        i++;
+    return i;
+}
+
+/* candidates s..e of one set into their tile */
+static void add_run(filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t e)
+{
+    sph_thread *t = f->t;
+    while (s < e) {
+        uint32_t *n = set->role == SPH_ROLE_FLUID ? &t->fluid.n : set->role == SPH_ROLE_GHOST ? &t->ghost.n : &t->forces;
+        if (*n == SPH_TILE)
+            flush(f, set->role);
+        uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
+        if (set->role == SPH_ROLE_FLUID) {
+            load_x(f, im, s, take, t->fluid.x, *n);
+            load_state(f, im, set, s, take, &t->fluid);
+        } else if (set->role == SPH_ROLE_GHOST) {
+            load_x(f, im, s, take, t->ghost.x, *n);
+            load_state(f, im, set, s, take, &t->ghost);
+            load_ghost(f, im, set, s, take, *n);
+        } else {
+            load_x(f, im, s, take, t->fx, *n);
+            memset(t->fset + *n, f->b->set[0][s], take);
+        }
+        *n += take;
+        s += take;
+    }
+}
+
+/* candidates of the cells c0..c1 (contiguous in a row), seen through an image */
+static void add_cells(filling *f, const image *im, uint32_t c0, uint32_t c1)
+{
+    uint32_t s = f->sim->cell[c0], e = f->sim->cell[c1 + 1];
+    while (s < e) {
+        uint32_t r = run_end(f->b->set[0], s, e);
+        if (f->b->set[0][s] != SPH_DEAD) {
+            const sph_set *set = &f->sim->set[f->b->set[0][s]];
+            if (f->w->classes >> set->role & 1)
+                add_run(f, im, set, s, r);
+        }
+        s = r;
+    }
+}
+
+/* Cell c + o along axis k: its index if it exists, directly or as an image (then im is changed); false if nothing is there. */
+static bool look(const sph_sim *sim, uint32_t k, uint32_t c, int o, uint32_t *cell, image *im)
+{
+    const uint32_t n = sim->ncell[k];
+    const bool low = o < 0 && c == 0, high = o > 0 && c == n - 1;
+    if (!low && !high) {
+        *cell = c + (uint32_t)o;
+        return true;
+    }
+    const uint32_t face = sim->cfg.face[k][high];
+    if (face == SPH_OPEN)
+        return false;
+    im->is_image = true;
+    if (face == SPH_PERIODIC) {
+        *cell = low ? n - 1 : 0;
+        im->shift[k] = low ? -sim->extent[k] : sim->extent[k];
+        return true;
+    }
+    *cell = c; /* a mirror: the cell's own picture behind the face */
+    im->sign[k] = -1;
+    im->shift[k] = low ? 0 : 2 * sim->extent[k];
+    for (uint32_t a = 0; a < SPH_DIM; a++)
+        if (a == k || face == SPH_MIRROR_NO_SLIP)
+            im->flip[a] = -im->flip[a];
+    return true;
+}
+
+static const image no_image = {false,
+#if SPH_DIM == 1
+                               {1}, {0}, {1}
+#elif SPH_DIM == 2
+                               {1, 1}, {0, 0}, {1, 1}
+#else
+                               {1, 1, 1}, {0, 0, 0}, {1, 1, 1}
+#endif
+};
+
+/* all candidates of one row of cells; `row` is the index of its first cell, im says how the row itself is seen */
+static void add_row(filling *f, const image *im, uint32_t row, uint32_t cx)
+{
+    const sph_sim *sim = f->sim;
+    uint32_t x, lo = cx > 0 ? cx - 1 : 0, hi = cx + 1 < sim->ncell[0] ? cx + 1 : cx;
+    if (cx == 0) {
+        image e = *im;
+        if (look(sim, 0, cx, -1, &x, &e))
+            add_cells(f, &e, row + x, row + x);
+    }
+    add_cells(f, im, row + lo, row + hi);
+    if (cx + 1 == sim->ncell[0]) {
+        image e = *im;
+        if (look(sim, 0, cx, 1, &x, &e))
+            add_cells(f, &e, row + x, row + x);
+    }
+}
+
+static void add_all(filling *f, const uint32_t *c)
+{
+#if SPH_DIM == 1
+    add_row(f, &no_image, 0, c[0]);
+#elif SPH_DIM == 2
+    for (int o = -1; o <= 1; o++) {
+        image im = no_image;
+        uint32_t y;
+        if (look(f->sim, 1, c[1], o, &y, &im))
+            add_row(f, &im, y * f->sim->ncell[0], c[0]);
+    }
+#else
+    for (int p = -1; p <= 1; p++) {
+        image imz = no_image;
+        uint32_t y, z;
+        if (!look(f->sim, 2, c[2], p, &z, &imz))
+            continue;
+        for (int o = -1; o <= 1; o++) {
+            image im = imz;
+            if (look(f->sim, 1, c[1], o, &y, &im))
+                add_row(f, &im, (z * f->sim->ncell[1] + y) * f->sim->ncell[0], c[0]);
+        }
+    }
+#endif
+}
+
+/* loads wanted particles from *s on into the home tile, at most SPH_HOMES; advances *s */
+static void load_homes(filling *f, uint32_t *s, uint32_t e)
+{
+    sph_thread *t = f->t;
+    t->home.n = 0;
+    f->homes = 0;
+    while (*s < e && f->homes < SPH_HOMES) {
+        uint32_t r = run_end(f->b->set[0], *s, e);
+        uint8_t set = f->b->set[0][*s];
+        if (set == SPH_DEAD || !f->w->home(f->sim, &f->sim->set[set])) {
+            *s = r;
+            continue;
+        }
+        uint32_t n = r - *s < SPH_HOMES - f->homes ? r - *s : SPH_HOMES - f->homes;
+        load_x(f, &no_image, *s, n, t->home.x, t->home.n);
+        load_state(f, &no_image, &f->sim->set[set], *s, n, &t->home);
+        for (uint32_t j = 0; j < n; j++) {
+            t->home_at[f->homes + j] = *s + j;
+            t->home_set[f->homes + j] = set;
+        }
+        t->home.n += n;
+        f->homes += n;
+        *s += n;
+    }
+}
+
+static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
+{
+    const sph_sim *sim = f->sim;
+    uint32_t s = sim->cell[cell], e = sim->cell[cell + 1];
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        f->origin[k] = (sph_pos)c[k] * (sim->extent[k] / (sph_pos)sim->ncell[k]);
+        f->t->origin[k] = (double)f->origin[k] * sim->quantum;
+    }
+    while (s < e) {
+        load_homes(f, &s, e);
+        if (f->homes == 0)
+            return;
+        memset(f->t->sum, 0, f->homes * sizeof f->t->sum[0]);
+        f->t->fluid.n = f->t->ghost.n = f->t->forces = 0;
+        add_all(f, c);
+        flush(f, SPH_ROLE_FLUID);
+        flush(f, SPH_ROLE_GHOST);
+        flush(f, SPH_ROLE_FORCE_WALL);
+        for (uint32_t h = 0; h < f->homes; h++)
+            f->w->finish(f->sim, f->t, h);
+    }
+}
+
+uint32_t sph_sweep_chunks(const sph_sim *sim) { return (sim->cells + SPH_SWEEP_CHUNK - 1) / SPH_SWEEP_CHUNK; }
+uint32_t sph_local_chunks(const sph_sim *sim)
+{
+    return (sim->next.count + SPH_LOCAL_CHUNK - 1) / SPH_LOCAL_CHUNK;
+}
+
+void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_thread *t)
+{
+    filling f;
+    f.sim = sim;
+    f.w = w;
+    f.t = t;
+    f.b = &sim->buf[sim->dst];
+    f.homes = 0;
+    uint64_t before = t->pairs;
+    uint32_t last = (chunk + 1) * SPH_SWEEP_CHUNK < sim->cells ? (chunk + 1) * SPH_SWEEP_CHUNK : sim->cells;
+    for (uint32_t cell = chunk * SPH_SWEEP_CHUNK; cell < last; cell++) {
+        if (sim->cell[cell] == sim->cell[cell + 1])
+            continue;
+        uint32_t c[3], q = cell;
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            c[k] = q % sim->ncell[k];
+            q /= sim->ncell[k];
+        }
+        sweep_cell(&f, cell, c);
+    }
+    t->work += t->pairs - before + SPH_SWEEP_CHUNK;
+}

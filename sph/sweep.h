@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* sweep.h: the one neighbour sweep. For each cell it copies the particles of the 3^DIM cells around it (images behind
+   periodic and mirror faces included) into tiles: short arrays with positions relative to the cell and everything a
+   pair formula reads. A pass gives the sweep three small functions: which particles are homes, what to add up over a
+   tile, and what to do with the sums. No neighbour list is kept.
+
+   There is a tile for each class of candidates: fluid, ghost walls, boundary-force walls. Candidate number k of a class
+   goes to lane k mod 8, so sums depend on the order of candidates only. A full tile is worked off and refilled:
+   its capacity changes no bit. */
+#ifndef SPH_SWEEP_H
+#define SPH_SWEEP_H
+
+#include "internal.h"
+
+#define SPH_TILE (SPH_DIM == 1 ? 64 : SPH_DIM == 2 ? 128 : 384)
+#define SPH_HOMES 16u       /* home particles worked on at once */
+#define SPH_SUMS (SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12)
+#define SPH_SWEEP_CHUNK 32u  /* cells */
+#define SPH_LOCAL_CHUNK 256u /* particles */
+
+typedef struct sph_tile {
+    uint32_t n;
+    sph_real x[SPH_DIM][SPH_TILE + 8]; /* m, from the home cell's low corner */
+    sph_real v[SPH_DIM][SPH_TILE + 8]; /* m/s */
+    sph_real m[SPH_TILE + 8];          /* kg */
+    sph_real rho[SPH_TILE + 8];        /* kg/m^3 */
+    sph_real a[SPH_TILE + 8];          /* standard schemes: p/rho^2; others: p */
+    sph_real iv[SPH_TILE + 8];         /* 1/rho, where a formula needs it */
+} sph_tile;
+
+/* what ghost walls have besides */
+typedef struct sph_ghost_tile {
+    sph_real n[SPH_DIM][SPH_TILE + 8]; /* normal into the fluid */
+    sph_real u[SPH_DIM][SPH_TILE + 8]; /* velocity for the viscosity (Adami) */
+    sph_real depth[SPH_TILE + 8];      /* distance behind the wall, 0: no mirror velocity */
+    sph_real vis[SPH_TILE + 8];        /* 1: viscosity acts, 0: free slip */
+} sph_ghost_tile;
+
+typedef struct sph_thread {
+    sph_tile home, fluid, ghost;
+    sph_ghost_tile more;
+    uint32_t forces; /* boundary-force particles: set and position only */
+    sph_real fx[SPH_DIM][SPH_TILE + 8];
+    uint8_t fset[SPH_TILE + 8];
+    uint32_t home_at[SPH_HOMES]; /* index of the home particle */
+    uint8_t home_set[SPH_HOMES];
+    sph_real sum[SPH_HOMES][SPH_SUMS][SPH_LANES];
+    double origin[SPH_DIM]; /* of the home cell, from the domain's low corner (m) */
+    /* what a pass gathers over its chunks: order does not matter for any of these */
+    uint64_t work, pairs;
+    sph_peaks peaks;
+    sph_fail fail;
+    uint32_t crossed, put_back, reflected, left, removed, widest;
+} sph_thread;
+
+typedef struct sph_sweep {
+    bool (*home)(const sph_sim *sim, const sph_set *set);
+    uint32_t classes;  /* an or of 1 << SPH_ROLE_... that are candidates */
+    bool needs_iv;
+    void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t home, uint32_t role); /* add a tile to home's sums */
+    void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                    /* sums are complete */
+} sph_sweep;
+
+#define sph_sweep_chunk SPH_NAME(sweep_chunk_)
+void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_thread *t);
+#define sph_sweep_chunks SPH_NAME(sweep_chunks_)
+uint32_t sph_sweep_chunks(const sph_sim *sim);
+#define sph_local_chunks SPH_NAME(local_chunks_)
+uint32_t sph_local_chunks(const sph_sim *sim);
+
+_Static_assert(sizeof(sph_thread) <= SPH_SCRATCH_BYTES, "SPH_SCRATCH_BYTES in sph.h is too small");
+
+#endif
