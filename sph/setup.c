@@ -341,8 +341,8 @@ double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
     if (y < -0.99)
         y = -0.99;
     /* (1 + y)^(1/7) - 1 by Newton; each step squares the error, so the counts reach rounding from these guesses */
-    double d = y > 1 ? sph_pow(1 + y, 1.0 / 7) - 1 : y / 7;
-    for (int i = sph_abs(y) < 0.1 ? 3 : 7; i > 0; i--) {
+    double d = y > 1 ? sph_pow(1 + y, 1.0 / 7) - 1 : y * (1.0 / 7 - y * (3.0 / 49));
+    for (int i = sph_abs(y) < 0.1 ? 2 : 7; i > 0; i--) {
         double f = d * (7 + d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d)))))) - y;
         double s2 = (1 + d) * (1 + d), s6 = s2 * s2 * s2;
         d -= f / (7 * s6);

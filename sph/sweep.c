@@ -338,7 +338,8 @@ static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
         if (f->homes == 0)
             return;
         for (uint32_t a = 0; a < f->w->sums; a++)
-            memset(f->t->sum[a], 0, f->homes * sizeof f->t->sum[0][0]);
+            for (uint32_t h = 0; h < f->homes; h++) /* eight reals: a store or two, not a call */
+                memset(f->t->sum[a][h], 0, sizeof f->t->sum[a][h]);
         f->t->fluid.n = f->t->ghost.n = f->t->forces = 0;
         add_all(f, c);
         flush(f, SPH_ROLE_FLUID);
