@@ -30,7 +30,7 @@ static advance stage_advance(const sph_sim *sim)
     const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5, g = (sph_real)sim->cfg.damping;
     switch (sim->mode) {
     case SPH_ADV_PC: return (advance){dt, dt * half, dt, dt, g};     /* Gray 2.26, 2.27, 2.29 */
-    case SPH_ADV_KDK: return (advance){dt, dt * half, half, dt, g};
+    case SPH_ADV_KDK: return (advance){dt, dt * half, half, 0, g};
     case SPH_ADV_LEAP: /* the first step turns v^0 into v^(1/2) */
         return sim->now.started ? (advance){dt, 0, 0, 0, 1} : (advance){dt, dt * half, half, 0, 1};
     case SPH_ADV_RK: return (advance){half, 0, half, half, 1};       /* Wickramarachchi 3.85 */

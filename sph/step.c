@@ -149,7 +149,7 @@ static void finish_span(sph_sim *sim, uint32_t chunk, span s, sph_thread *t)
 }
 
 /* v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28, 2.29);
-   with the half-step velocity of kick-drift-kick: v = damping (v_h + dt/2 a) */
+   kick-drift-kick: v = damping (v_h + dt/2 a), and the density has had its whole step already */
 SPH_INLINE void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
 {
     const span s = chunk_span(sim, chunk);
@@ -159,7 +159,7 @@ SPH_INLINE void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
         const uint32_t e = sph_run_end(b.set[0], i, s.last);
         const sph_set *set = &sim->set[b.set[0][i]];
         const bool fluid = set->role == SPH_ROLE_FLUID;
-        for (uint32_t j = i; j < e && (fluid || set->compressible); j++)
+        for (uint32_t j = i; j < e && !kdk && (fluid || set->compressible); j++)
             b.rho[0][j] = b.rho[0][j] + half * (b.drho[0][j] - o.drho[0][b.id[0][j]]);
         SPH_UNROLL
         for (uint32_t k = 0; k < SPH_DIM; k++)
@@ -174,7 +174,9 @@ SPH_INLINE void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
 static void correct_pc_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, false); }
 static void correct_kdk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, true); }
 
-/* leap-frog (Powell 2012 algorithm 1.1): the density goes a whole step with the rates of the half-step velocity */
+/* Leap-frog (Powell 2012 algorithm 1.1) and kick-drift-kick: the density goes a whole step with the rates of the half-step
+   velocity at the new positions, like a position; then come the forces. (Taking the rates of the velocity at the ends,
+   with one sweep, makes sound waves grow.) */
 static void leap_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const span s = chunk_span(sim, chunk);
@@ -310,7 +312,8 @@ static const sph_pass pass_rk = {"advance", sph_local_chunks, rk_chunk, add_book
 #define FORCES &sph_pass_adami, &sph_pass_force
 static const sph_pass *const prime_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_prime, NULL};
 static const sph_pass *const pc_program[] = {&pass_begin_pc, SORT, FILTER, FORCES, &pass_correct_pc, NULL};
-static const sph_pass *const kdk_program[] = {&pass_begin_kdk, SORT, FILTER, FORCES, &pass_correct_kdk, NULL};
+static const sph_pass *const kdk_program[] = {&pass_begin_kdk, SORT, FORCES, &pass_leap_density, FILTER,
+                                              FORCES, &pass_correct_kdk, NULL};
 static const sph_pass *const leap_program[] = {&pass_begin_leap, SORT, FORCES, &pass_leap_density, FILTER,
                                                FORCES, &pass_leap_velocity, NULL};
 static const sph_pass *const rk_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_settle,
