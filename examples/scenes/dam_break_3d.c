@@ -60,7 +60,8 @@ static sph_status build(sph_sim *sim, const double *p)
     uint32_t water;
     sph_status st;
     sizes(p, block, tank);
-    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, block, NULL)) != SPH_OK ||
+    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK ||
+        (st = sph_add_box(sim, water, lo, block, NULL)) != SPH_OK ||
         (st = sph_apply_hydrostatic(sim, water, block[2])) != SPH_OK)
         return st;
     return sph_add_wall_box(sim, &wall, lo, tank, FACES, true, NULL);

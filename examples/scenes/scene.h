@@ -48,15 +48,16 @@ enum {
     {"alpha", "-", "artificial viscosity, linear part", alpha_, 0, 100, SCENE_NUMBER},                               \
     {"beta", "-", "artificial viscosity, quadratic part", 0, 0, 100, SCENE_NUMBER},                                  \
     {"nu", "m^2/s", "kinematic viscosity; 0: what the scene's Reynolds number asks for", 0, 0, 1e6, SCENE_NUMBER},   \
-    {"diffusion", "-", "density diffusion: none molteni hydrostatic", diffusion_, 0, SPH_DIFFUSIONS - 1, SCENE_CHOICE}, \
+    {"diffusion", "-", "density diffusion: none molteni hydrostatic", diffusion_, 0, SPH_DIFFUSIONS - 1,   \
+     SCENE_CHOICE},                                                                                                  \
     {"delta", "-", "strength of the density diffusion", 0.1, 0, 10, SCENE_NUMBER},                                   \
     {"xsph", "-", "XSPH factor; 0: off", 0, 0, 1, SCENE_NUMBER},                                                     \
     {"shepard", "steps", "Shepard density filter every so many steps; 0: never", 0, 0, 1e9, SCENE_WHOLE},            \
     {"integrator", "-",                                                                                              \
      "integrator: predictor_corrector kick_drift_kick leap_frog runge_kutta runge_kutta_momentum",                   \
      SPH_PREDICTOR_CORRECTOR, 0, SPH_INTEGRATORS - 1, SCENE_CHOICE},                                                 \
-    {"wall", "-", "walls: lennard_jones kernel_force monaghan_kos ghost ghost_compressible adami adami_no_slip", wall_, \
-     0, SCENE_WALLS - 1, SCENE_CHOICE},                                                                              \
+    {"wall", "-", "walls: lennard_jones kernel_force monaghan_kos ghost ghost_compressible adami adami_no_slip",   \
+     wall_, 0, SCENE_WALLS - 1, SCENE_CHOICE},                                                                              \
     {"strength", "-", "of a boundary force, in the wall's own units (sph.h, section 6); 0: the usual", 0, 0, 1e12,   \
      SCENE_NUMBER},                                                                                                  \
     {"cross", "-", "what to do with a particle found inside a wall: fail remove put_back ignore", SPH_PUT_BACK, 0,   \
