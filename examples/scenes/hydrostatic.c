@@ -7,7 +7,7 @@
 enum { DEPTH = SCENE_COMMON, N, RHO, GRAVITY, SOUND, START, END, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_COMMON_PARAMS(SPH_CUBIC, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 0),
+    SCENE_COMMON_PARAMS(SPH_CUBIC, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 0.998, 0, 0),
     {"depth", "m", "depth of the water", 150, 1e-4, 1e6, SCENE_NUMBER},
     {"n", "-", "particles in the depth", 50, 4, 100000, SCENE_WHOLE},
     {"rho", "kg/m^3", "rest density", 1, 1e-6, 1e6, SCENE_NUMBER},

@@ -35,37 +35,37 @@ enum {
 };
 
 /* The first rows of a scene's parameter table, with the defaults in which scenes differ. */
-#define SCENE_COMMON_PARAMS(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, books_)                        \
-    {"kernel", "-", "smoothing kernel: cubic quartic quintic gaussian wendland_c2 wendland_c4 hat", kernel_, 0,      \
-     SPH_KERNELS - 1, SCENE_CHOICE},                                                                                 \
-    {"h", "dx", "smoothing length in spacings", h_, 0.5, 10, SCENE_NUMBER},                                          \
-    {"scheme", "-", "momentum equation: standard weak direct standard_wick weak_wick", SPH_STANDARD, 0,              \
-     SPH_SCHEMES - 1, SCENE_CHOICE},                                                                                 \
-    {"density", "-", "density: continuity summation", SPH_CONTINUITY, 0, SPH_DENSITIES - 1, SCENE_CHOICE},           \
-    {"eos", "-", "equation of state: tait tait_gray linear isothermal", eos_, 0, SPH_EOSES - 1, SCENE_CHOICE},       \
-    {"viscosity", "-", "viscosity: inviscid artificial artificial_approaching morris", viscosity_, 0,                \
-     SPH_VISCOSITIES - 1, SCENE_CHOICE},                                                                             \
-    {"alpha", "-", "artificial viscosity, linear part", alpha_, 0, 100, SCENE_NUMBER},                               \
-    {"beta", "-", "artificial viscosity, quadratic part", 0, 0, 100, SCENE_NUMBER},                                  \
-    {"nu", "m^2/s", "kinematic viscosity; 0: what the scene's Reynolds number asks for", 0, 0, 1e6, SCENE_NUMBER},   \
-    {"diffusion", "-", "density diffusion: none molteni hydrostatic", diffusion_, 0, SPH_DIFFUSIONS - 1,   \
-     SCENE_CHOICE},                                                                                                  \
-    {"delta", "-", "strength of the density diffusion", 0.1, 0, 10, SCENE_NUMBER},                                   \
-    {"xsph", "-", "XSPH factor; 0: off", 0, 0, 1, SCENE_NUMBER},                                                     \
-    {"shepard", "steps", "Shepard density filter every so many steps; 0: never", 0, 0, 1e9, SCENE_WHOLE},            \
-    {"integrator", "-",                                                                                              \
-     "integrator: predictor_corrector kick_drift_kick leap_frog runge_kutta runge_kutta_momentum",                   \
-     SPH_PREDICTOR_CORRECTOR, 0, SPH_INTEGRATORS - 1, SCENE_CHOICE},                                                 \
-    {"wall", "-", "walls: lennard_jones kernel_force monaghan_kos ghost ghost_compressible adami adami_no_slip",   \
-     wall_, 0, SCENE_WALLS - 1, SCENE_CHOICE},                                                                              \
-    {"strength", "-", "of a boundary force, in the wall's own units (sph.h, section 6); 0: the usual", 0, 0, 1e12,   \
-     SCENE_NUMBER},                                                                                                  \
-    {"cross", "-", "what to do with a particle found inside a wall: fail remove put_back ignore", SPH_PUT_BACK, 0,   \
-     SPH_POLICIES - 1, SCENE_CHOICE},                                                                                \
-    {"damping", "-", "factor on velocities in predictor and corrector; 1: none", 1, 0.5, 1, SCENE_NUMBER},           \
-    {"damp_steps", "steps", "how long damping acts; 0: to the end", 0, 0, 1e9, SCENE_WHOLE},                         \
-    {"dt", "s", "fixed time step; 0: controlled", 0, 0, 1e9, SCENE_NUMBER},                                          \
-    {"cfl", "-", "Courant factor", 0.25, 1e-3, 10, SCENE_NUMBER},                                                    \
+#define SCENE_COMMON_PARAMS(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_)   \
+    {"kernel", "-", "smoothing kernel: cubic quartic quintic gaussian wendland_c2 wendland_c4 hat", kernel_, 0,        \
+     SPH_KERNELS - 1, SCENE_CHOICE},                                                                                   \
+    {"h", "dx", "smoothing length in spacings", h_, 0.5, 10, SCENE_NUMBER},                                            \
+    {"scheme", "-", "momentum equation: standard weak direct standard_wick weak_wick", SPH_STANDARD, 0,                \
+     SPH_SCHEMES - 1, SCENE_CHOICE},                                                                                   \
+    {"density", "-", "density: continuity summation", SPH_CONTINUITY, 0, SPH_DENSITIES - 1, SCENE_CHOICE},             \
+    {"eos", "-", "equation of state: tait tait_gray linear isothermal", eos_, 0, SPH_EOSES - 1, SCENE_CHOICE},         \
+    {"viscosity", "-", "viscosity: inviscid artificial artificial_approaching morris", viscosity_, 0,                  \
+     SPH_VISCOSITIES - 1, SCENE_CHOICE},                                                                               \
+    {"alpha", "-", "artificial viscosity, linear part", alpha_, 0, 100, SCENE_NUMBER},                                 \
+    {"beta", "-", "artificial viscosity, quadratic part", 0, 0, 100, SCENE_NUMBER},                                    \
+    {"nu", "m^2/s", "kinematic viscosity; 0: what the scene's Reynolds number asks for", 0, 0, 1e6, SCENE_NUMBER},     \
+    {"diffusion", "-", "density diffusion: none molteni hydrostatic", diffusion_, 0, SPH_DIFFUSIONS - 1,               \
+     SCENE_CHOICE},                                                                                                    \
+    {"delta", "-", "strength of the density diffusion", 0.1, 0, 10, SCENE_NUMBER},                                     \
+    {"xsph", "-", "XSPH factor; 0: off", 0, 0, 1, SCENE_NUMBER},                                                       \
+    {"shepard", "steps", "Shepard density filter every so many steps; 0: never", 0, 0, 1e9, SCENE_WHOLE},              \
+    {"integrator", "-",                                                                                                \
+     "integrator: predictor_corrector kick_drift_kick leap_frog runge_kutta runge_kutta_momentum",                     \
+     SPH_PREDICTOR_CORRECTOR, 0, SPH_INTEGRATORS - 1, SCENE_CHOICE},                                                   \
+    {"wall", "-", "walls: lennard_jones kernel_force monaghan_kos ghost ghost_compressible adami adami_no_slip",       \
+     wall_, 0, SCENE_WALLS - 1, SCENE_CHOICE},                                                                         \
+    {"strength", "-", "of a boundary force, in the wall's own units (sph.h, section 6); 0: the usual", 0, 0, 1e12,     \
+     SCENE_NUMBER},                                                                                                    \
+    {"cross", "-", "what to do with a particle found inside a wall: fail remove put_back ignore", SPH_PUT_BACK, 0,     \
+     SPH_POLICIES - 1, SCENE_CHOICE},                                                                                  \
+    {"damping", "-", "factor on velocities in predictor and corrector; 1: none", damping_, 0.5, 1, SCENE_NUMBER},      \
+    {"damp_steps", "steps", "how long damping acts; 0: to the end", damp_steps_, 0, 1e9, SCENE_WHOLE},                 \
+    {"dt", "s", "fixed time step; 0: controlled", 0, 0, 1e9, SCENE_NUMBER},                                            \
+    {"cfl", "-", "Courant factor", 0.25, 1e-3, 10, SCENE_NUMBER},                                                      \
     {"books", "-", "keep work and dissipation: no yes", books_, 0, 1, SCENE_CHOICE}
 
 /* choices of `wall`; ghosts are "incompressible" unless they say otherwise */

@@ -7,7 +7,7 @@
 enum { DEPTH = SCENE_COMMON, WIDTH, N, GRAVITY, SOUND, START, END, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_COMMON_PARAMS(SPH_CUBIC, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 0),
+    SCENE_COMMON_PARAMS(SPH_CUBIC, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 0.998, 10000, 0),
     {"depth", "m", "depth of the water", 0.15, 1e-4, 1e4, SCENE_NUMBER},
     {"width", "m", "width of the tank", 0.3, 1e-4, 1e4, SCENE_NUMBER},
     {"n", "-", "particles in the depth", 30, 4, 4000, SCENE_WHOLE},

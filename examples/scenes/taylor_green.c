@@ -8,7 +8,7 @@
 enum { SIDE = SCENE_COMMON, SPEED, RE, N, JITTER, SEED, SOUND, END, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 2, SPH_ISOTHERMAL, SPH_MORRIS, 0, SPH_NO_DIFFUSION, SCENE_ADAMI, 0),
+    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 2, SPH_ISOTHERMAL, SPH_MORRIS, 0, SPH_NO_DIFFUSION, SCENE_ADAMI, 1, 0, 0),
     {"side", "m", "side of the square", 1, 1e-4, 1e4, SCENE_NUMBER},
     {"speed", "m/s", "largest speed at the start", 1, 1e-6, 1e4, SCENE_NUMBER},
     {"re", "-", "Reynolds number speed side/nu, unless nu is given", 100, 1e-3, 1e9, SCENE_NUMBER},
