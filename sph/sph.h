@@ -262,7 +262,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_BOOKS) ? 4u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
-#define SPH_SCRATCH_BYTES ((SPH_DIM == 3 ? 65536u : 25600u) * (SPH_DOUBLE ? 2u : 1u)) /* a thread */
+#define SPH_SCRATCH_BYTES ((SPH_DIM == 3 ? 73728u : 25600u) * (SPH_DOUBLE ? 2u : 1u)) /* a thread */
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      ((size_t)(particles) + 16u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
@@ -511,8 +511,10 @@ uint64_t sph_hash(const sph_sim *sim);
 
 /* ---- 11 dump and restore ---------------------------------------------------------------------------
    Little-endian on every machine, versioned, self-describing, checksummed by section (layout: dump.c). The sink and
-   source get pieces of at most SPH_PIECE bytes and return false to fail. A full dump (fields SPH_DUMP_FULL) restores
-   a run that goes on with the same bits; a reduced one carries the chosen fields for pictures. */
+   source move pieces of at most SPH_PIECE bytes and return false to fail. A full dump (fields SPH_DUMP_FULL) restores a
+   run that goes on with the same bits; a reduced one carries the chosen fields for pictures. Between the slices of a
+   step a dump holds the state of the step's beginning. Each function uses less than 1 KiB of stack.
+   Fails: SPH_BAD_ARGUMENT (no sink, unknown fields), SPH_SINK_FAILED. */
 #define SPH_PIECE 256u
 typedef bool (*sph_sink)(void *ctx, const void *bytes, size_t n);
 typedef bool (*sph_source)(void *ctx, void *bytes, size_t n); /* must fill n bytes or return false */
@@ -524,8 +526,13 @@ typedef bool (*sph_source)(void *ctx, void *bytes, size_t n); /* must fill n byt
 #define SPH_DUMP_FULL 0x80000000u
 #define sph_dump SPH_NAME(dump)
 sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ctx);
-/* Restores a full dump into a simulation that was initialised with the same configuration and the same sets and walls.
-   Reads the stream once into the spare half of the arena; on any failure the simulation is as it was. */
+/* Restores a full dump into a simulation that was initialised with the same configuration and then given the same
+   sets and walls, in the same order; it may have run since. Gravity, damping and the fixed dt become those of the
+   dump (sph_reconfigure may change them again); hooks and threads stay those of the simulation. Reads the stream once,
+   into the spare half of the arena, and commits only when every checksum and value was seen to be right; on any failure the
+   simulation is as it was. A source that returns false is taken as the stream's end.
+   Fails: SPH_BAD_STATE (a step is under way), SPH_DUMP_TRUNCATED, SPH_DUMP_CORRUPT, SPH_DUMP_FOREIGN, SPH_DUMP_NEWER,
+   SPH_DUMP_MISMATCH (a reduced dump, or one of another configuration, set-up or capacity). */
 #define sph_restore SPH_NAME(restore)
 sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx);
 
