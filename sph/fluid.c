@@ -213,6 +213,9 @@ SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, ui
         SPH_UNROLL
         for (int k = 0; k < SPH_NV; k++)
             s[a][k] = v_load(th->sum[a][h] + k * SPH_W);
+    for (int a = used; a < SPH_SUMS; a++) /* never read; where the choices are constants this vanishes */
+        for (int k = 0; k < SPH_NV; k++)
+            s[a][k] = v_set(0);
     for (uint32_t j = 0; j < n; j += SPH_LANES) {
         SPH_UNROLL
         for (uint32_t k = 0; k < SPH_NV; k++)

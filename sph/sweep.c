@@ -112,7 +112,7 @@ static void load_ghost(const filling *f, const image *im, const sph_set *set, ui
     const double q = f->sim->quantum;
     double plane = 0; /* normal . (wall face - home cell), with the wall where it is now, and its image */
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        double moved = f->sim->next.group[set->group].moved[k] * q;
+        double moved = (double)f->sim->next.group[set->group].moved[k] * q;
         double o = (double)im->sign[k] * (set->origin[k] + moved) + (double)(im->shift[k] - f->origin[k]) * q;
         plane += (double)im->sign[k] * set->normal[k] * o;
     }
