@@ -128,7 +128,7 @@ enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
 /* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:
-   velocity Verlet; velocity-dependent terms see the half-step velocity. LEAP_FROG: Powell 2012 algorithm 1.1,
+   velocity Verlet; density drifts with the half-step velocity, so a step takes two sweeps (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1,
    rates then forces (two sweeps), velocities half a step behind. RUNGE_KUTTA: Wickramarachchi 3.85-3.87;
    RUNGE_KUTTA_MOMENTUM: his 3.91-3.92 (algebraically the same midpoint rule, rounded differently). */
 enum {
@@ -262,7 +262,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_BOOKS) ? 4u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
-#define SPH_SCRATCH_BYTES ((SPH_DIM == 3 ? 73728u : 25600u) * (SPH_DOUBLE ? 2u : 1u)) /* a thread */
+#define SPH_SCRATCH_BYTES ((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 25600u : 73728u) * (SPH_DOUBLE ? 2u : 1u)) /* a thread */
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      ((size_t)(particles) + 16u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
