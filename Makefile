@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: MIT. Copyright the sph authors.
+# Builds the kernel six times (1-D, 2-D, 3-D, float and double), the tool, the tests and the measurements.
+# `make help` lists the targets. Everything is made under $(BUILD). Every tool and flag below can be overridden:
+#   make CC=clang OPT=-O3     make BUILD=build/asan OPT="-O1 -g -fsanitize=address,undefined"     make V=1
+
+BUILD   ?= build
+ifeq ($(origin CC),default)
+CC       = cc
+endif
+ifeq ($(origin AR),default)
+AR       = ar
+endif
+GCC     ?= gcc
+CLANG   ?= clang
+SIZE    ?= size
+NM      ?= nm
+GCOV    ?= gcov
+OBJDUMP ?= objdump
+PYTHON  ?= python3
+ARM_CC  ?= arm-none-eabi-gcc
+ARM_SIZE ?= arm-none-eabi-size
+CPPCHECK ?= cppcheck
+CLANG_TIDY ?= clang-tidy
+PKG_CONFIG ?= pkg-config
+OPT     ?= -O2
+WARN    ?= -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
+CFLAGS  ?=
+LDFLAGS ?=
+EXEC    ?=
+
+ifdef V
+Q :=
+say = @:
+else
+Q := @
+say = @printf '  %-8s %s\n'
+endif
+
+# ---- flags that make the same bits everywhere; -fexcess-precision is gcc's alone ----
+
+BITS := -std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math
+is_clang := $(findstring clang,$(shell $(CC) --version 2>/dev/null))
+BITS_CC := $(BITS) $(if $(is_clang),,-fexcess-precision=fast)
+ALL_CFLAGS = $(BITS_CC) $(OPT) $(WARN) $(CFLAGS)
+HOST_CFLAGS := -D_POSIX_C_SOURCE=200809L -I. -Isph -Iport -Iexamples -Iexamples/scenes -Itools -Itests
+THREADS := -pthread
+
+# libpng is used when a small program with it compiles and links
+png_flags := $(shell $(PKG_CONFIG) --cflags libpng 2>/dev/null)
+png_libs  := $(or $(shell $(PKG_CONFIG) --libs libpng 2>/dev/null),-lpng -lz)
+have_png  := $(shell printf '\043include <png.h>\nint main(void){return png_access_version_number()==0;}\n' | \
+               $(CC) $(png_flags) -x c - -o /dev/null $(png_libs) 2>/dev/null && echo yes)
+ifeq ($(have_png),yes)
+PNG_CFLAGS := -DHAVE_LIBPNG $(png_flags)
+PNG_LIBS   := $(png_libs)
+endif
+
+# ---- sources ----
+
+BUILDS := 1f 1d 2f 2d 3f 3d
+dim = $(patsubst %d,%,$(patsubst %f,%,$(1)))
+double = $(if $(filter %d,$(1)),1,0)
+defines = -DSPH_DIM=$(call dim,$(1)) -DSPH_DOUBLE=$(call double,$(1))
+
+KERNEL := $(wildcard sph/*.c)
+PORT   := $(filter-out $(wildcard port/*_bare*.c),$(wildcard port/*.c))
+SCENES := $(wildcard examples/scenes/*.c)
+PROGS  := $(wildcard examples/*.c)
+TOOLS  := $(filter-out tools/build.c,$(wildcard tools/*.c))
+TESTS  := $(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c)))
+
+LIBS := $(BUILDS:%=$(BUILD)/libsph%.a)
+port_obj  := $(PORT:%.c=$(BUILD)/obj/%.o)
+tools_obj := $(TOOLS:%.c=$(BUILD)/obj/%.o)
+build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$(b)/tools/build.o))
+scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
+TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
+
+.PHONY: all demo test bits bench size validate coverage lint help clean tests
+.DELETE_ON_ERROR:
+.SECONDARY:
+.DEFAULT_GOAL := all
+
+all: $(LIBS) $(TOOL)
+
+# ---- kernel, scenes and whatever else is compiled once for each of the six builds ----
+
+define build_rules
+$(BUILD)/obj/$(1)/sph/%.o: sph/%.c
+	$$(say) cc "$$< ($(1))"
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $(call defines,$(1)) -MMD -MP -c $$< -o $$@
+$(BUILD)/obj/$(1)/examples/%.o: examples/%.c
+	$$(say) cc "$$< ($(1))"
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $(call defines,$(1)) -I. -Isph -Iport -Iexamples/scenes -MMD -MP -c $$< -o $$@
+$(BUILD)/obj/$(1)/%.o: %.c
+	$$(say) cc "$$< ($(1))"
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(HOST_CFLAGS) $(call defines,$(1)) -MMD -MP -c $$< -o $$@
+$(BUILD)/libsph$(1).a: $$(KERNEL:%.c=$(BUILD)/obj/$(1)/%.o)
+	$$(say) ar $$@
+	$$(Q)rm -f $$@ && $$(AR) rcs $$@ $$^
+endef
+$(foreach b,$(BUILDS),$(eval $(call build_rules,$(b))))
+
+$(BUILD)/obj/%.o: %.c
+	$(say) cc $<
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(ALL_CFLAGS) $(HOST_CFLAGS) $(PNG_CFLAGS) $(THREADS) -MMD -MP -c $< -o $@
+
+$(BUILD)/sph: $(tools_obj) $(build_obj) $(scene_obj) $(port_obj) $(LIBS)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $(THREADS) $^ -o $@ $(PNG_LIBS) -lm
+
+-include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
+
+# ---- demo: a dam break, a picture, a dump, a history; needs a C compiler and make only ----
+
+demo: $(BUILD)/sph
+	$(Q)sh tests/demo.sh $(BUILD)
+
+# ---- tests ----
+
+# the builds that a test is compiled for; 2f 2d unless said otherwise
+builds_test_dmath   := 2f
+builds_test_kernels := $(BUILDS)
+builds_test_conserve := $(BUILDS)
+builds_test_bits    := $(BUILDS)
+builds_test_fail    := 1d 2f 3f
+builds_test_api     := $(BUILDS)
+builds_test_walls   := $(BUILDS)
+builds_test_eos_schemes := $(BUILDS)
+builds_test_time    := 1f 1d 2d
+builds_test_scenes  := $(BUILDS)
+builds_of = $(or $(builds_$(1)),2f 2d)
+test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
+
+define test_rule
+$(BUILD)/tests/$(1)_$(2): $(BUILD)/obj/$(2)/tests/$(1).o $(port_obj) $(SCENES:%.c=$(BUILD)/obj/$(2)/%.o) $(BUILD)/libsph$(2).a
+	$$(say) link $$@
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(LDFLAGS) $$(THREADS) $$^ -o $$@ -lcmocka -lm
+endef
+$(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(eval $(call test_rule,$(t),$(b)))))
+$(foreach b,$(BUILDS),$(BUILD)/obj/$(b)/tests/test_dmath.o): HOST_CFLAGS += -Itests/refdata
+
+# `make test` is one shell script so that cmocka is there before anything is compiled with it
+test:
+	$(Q)CC="$(CC)" sh tests/need_cmocka.sh
+	$(Q)$(MAKE) --no-print-directory tests
+	$(Q)EXEC="$(EXEC)" sh tests/run.sh $(BUILD) $(test_bins)
+	$(Q)BUILD=$(BUILD) sh tests/bits.sh --quick
+
+tests: $(test_bins)
+
+bits:
+	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" sh tests/bits.sh
+
+# ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
+
+bench:
+	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" BITS="$(BITS)" sh tests/bench.sh
+
+size: all
+	$(Q)BUILD=$(BUILD) CC="$(CC)" SIZE="$(SIZE)" BITS="$(BITS_CC)" ARM_CC="$(ARM_CC)" ARM_SIZE="$(ARM_SIZE)" sh tests/size.sh
+
+validate: all
+	$(Q)BUILD=$(BUILD) sh tests/validate.sh
+
+coverage:
+	$(Q)BUILD=$(BUILD)/coverage GCC="$(GCC)" GCOV="$(GCOV)" MAKE="$(MAKE)" OUT=$(BUILD) sh tests/coverage.sh
+
+lint:
+	$(Q)CPPCHECK="$(CPPCHECK)" CLANG_TIDY="$(CLANG_TIDY)" BUILD=$(BUILD) BITS="$(BITS)" sh tests/lint.sh
+
+clean:
+	$(Q)rm -rf $(BUILD)
+
+help:
+	@printf '%s\n' \
+	'make            the tool $(BUILD)/sph and the libraries $(BUILD)/libsph{1,2,3}{f,d}.a' \
+	'make demo       a 2-D dam break: picture, dump and history (a C compiler and make are enough)' \
+	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
+	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
+	'make bench      speed and memory, gcc and clang, native and portable      -> $(BUILD)/bench.csv' \
+	'make size       bytes of arena, code, constants and stack                 -> $(BUILD)/size.csv' \
+	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
+	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
+	'make lint       cppcheck and clang-tidy, those that are installed' \
+	'make clean      removes $(BUILD)' \
+	'Variables: CC OPT CFLAGS LDFLAGS AR SIZE NM GCC CLANG ARM_CC BUILD EXEC; V=1 shows every command.'
