@@ -57,6 +57,9 @@ endif
 
 # ---- sources ----
 
+# parts of the tests that need a source file
+HOST_CFLAGS += $(if $(wildcard sph/dump.c),-DHAVE_DUMP=1) $(if $(wildcard port/posix.h),-DHAVE_PORT_POSIX=1)
+
 BUILDS := 1f 1d 2f 2d 3f 3d
 dim = $(patsubst %d,%,$(patsubst %f,%,$(1)))
 double = $(if $(filter %d,$(1)),1,0)

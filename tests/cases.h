@@ -74,11 +74,11 @@ static const bits_case bits_cases[] = {
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
-#define CASE_N (SPH_DIM == 1 ? 40 : SPH_DIM == 2 ? 14 : 8) /* particles along an edge of the water */
+#define CASE_N (SPH_DIM == 1 ? 400 : SPH_DIM == 2 ? 40 : 8) /* particles along an edge: enough for several chunks */
 #define CASE_STEPS (SPH_DIM == 3 ? 6u : 12u)
 #define CASE_DX 0.1
 /* enough for any case: asserted by the runners through the status of sph_init */
-#define CASE_ARENA_BYTES (SPH_DIM == 3 ? 4u << 20 : 1u << 20)
+#define CASE_ARENA_BYTES (SPH_DIM == 3 ? 2u << 20 : 1u << 20)
 
 static void case_motion(void *ctx, double t, double *x, double *v)
 {
@@ -133,7 +133,7 @@ static sph_config case_config(const bits_case *b)
         if (SPH_DIM == 1)
             c.gravity[0] = 0;
     }
-    c.max_particles = SPH_DIM == 1 ? 80 : SPH_DIM == 2 ? 900 : 7000;
+    c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
     return c;
 }
 
