@@ -46,6 +46,9 @@ void sph_make_factors(sph_sim *sim)
         /* density difference that gravity makes over a distance r at rest: rho0 g . r / c^2 */
         f->hydro[k] = c->diffusion == SPH_HYDROSTATIC ? (sph_real)(c->rho0 * c->gravity[k] / c2) : 0;
     }
+    f->rate_by_density = c->scheme != SPH_STANDARD && c->scheme != SPH_STANDARD_WICK;
+    f->continuity = c->density == SPH_CONTINUITY;
+    f->extras = c->xsph != 0 || c->body_force || c->books;
     f->small_p = (sph_real)(1e-6 * c->rho0 * c->sound_speed * c->sound_speed);
 }
 
@@ -198,7 +201,7 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
     }
 }
 
-SPH_INLINE void force_tile(const choice *c, const factors *f, sph_thread *th, uint32_t h, bool wall)
+SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, uint32_t h, bool wall)
 {
     const sph_tile *t = wall ? &th->ghost : &th->fluid;
     const home o = spread_home(&th->home, h);
@@ -209,7 +212,7 @@ SPH_INLINE void force_tile(const choice *c, const factors *f, sph_thread *th, ui
     for (int a = 0; a < used; a++)
         SPH_UNROLL
         for (int k = 0; k < SPH_NV; k++)
-            s[a][k] = v_load(th->sum[h][a] + k * SPH_W);
+            s[a][k] = v_load(th->sum[a][h] + k * SPH_W);
     for (int a = used; a < SPH_SUMS; a++) /* never read; where the choices are constants this vanishes */
         for (int k = 0; k < SPH_NV; k++)
             s[a][k] = v_set(0);
@@ -222,7 +225,7 @@ SPH_INLINE void force_tile(const choice *c, const factors *f, sph_thread *th, ui
     for (int a = 0; a < used; a++)
         SPH_UNROLL
         for (int k = 0; k < SPH_NV; k++)
-            v_store(th->sum[h][a] + k * SPH_W, s[a][k]);
+            v_store(th->sum[a][h] + k * SPH_W, s[a][k]);
 }
 
 /* every choice read at run time: the form that covers all */
@@ -230,9 +233,9 @@ static __attribute__((noinline)) void force_any(const choice *c, const factors *
 {
     const choice own = *c;
     if (wall)
-        force_tile(&own, f, t, h, true);
+        force_home(&own, f, t, h, true);
     else
-        force_tile(&own, f, t, h, false);
+        force_home(&own, f, t, h, false);
 }
 
 #if SPH_WITH_FAST_PATHS
@@ -242,83 +245,66 @@ static __attribute__((noinline)) void force_any(const choice *c, const factors *
     X(w2_av_h, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC)                                            \
     X(cubic_av, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION)
 #define SPH_FAST_FN(name, kernel, visc, diff)                                                               \
-    static __attribute__((noinline)) void force_##name(const factors *f, sph_thread *t, uint32_t h)        \
+    static __attribute__((noinline)) void force_##name(const factors *f, sph_thread *t, uint32_t homes)    \
     {                                                                                                       \
         static const choice c = {kernel, SPH_STANDARD, visc, diff, false, false};                           \
-        force_tile(&c, f, t, h, false);                                                                     \
+        const factors own = *f;                                                                             \
+        for (uint32_t h = 0; h < homes; h++)                                                                \
+            force_home(&c, &own, t, h, false);                                                              \
     }
 SPH_FAST_LIST(SPH_FAST_FN)
 #undef SPH_FAST_FN
 #endif
 
-static choice choose(const sph_sim *sim)
+/* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over the fluid only; its acceleration is
+   not used. */
+static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
     const sph_config *c = &sim->cfg;
-    return (choice){c->kernel, c->scheme, c->viscosity, c->diffusion, c->xsph != 0, c->books};
-}
-
-static void force_add(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t role)
-{
-    const sph_config *c = &sim->cfg;
-    if (role == SPH_ROLE_FORCE_WALL) {
-        sph_force_walls(sim, t, h);
-        return;
-    }
-    const factors *f = &sim->fac;
 #if SPH_WITH_FAST_PATHS
     if (role == SPH_ROLE_FLUID && c->scheme == SPH_STANDARD && c->xsph == 0 && !c->books) {
 #define SPH_FAST_TRY(name, k, visc, diff)                                                                   \
     if (c->kernel == (k) && c->viscosity == (visc) && c->diffusion == (diff)) {                             \
-        force_##name(f, t, h);                                                                             \
+        force_##name(&sim->fac, t, homes);                                                                  \
         return;                                                                                             \
     }
         SPH_FAST_LIST(SPH_FAST_TRY)
 #undef SPH_FAST_TRY
     }
 #endif
-    const choice ch = choose(sim);
-    force_any(&ch, f, t, h, role == SPH_ROLE_GHOST);
+    const choice ch = {c->kernel, c->scheme, c->viscosity, c->diffusion, c->xsph != 0, c->books};
+    for (uint32_t h = 0; h < homes; h++) {
+        if (role != SPH_ROLE_FLUID && sim->set[t->home_set[h]].role != SPH_ROLE_FLUID)
+            continue;
+        if (role == SPH_ROLE_FORCE_WALL)
+            sph_force_walls(sim, t, h);
+        else
+            force_any(&ch, &sim->fac, t, h, role == SPH_ROLE_GHOST);
+    }
 }
 
-static bool force_home(const sph_sim *sim, const sph_set *s)
+static bool is_force_home(const sph_sim *sim, const sph_set *s)
 {
     (void)sim;
     return s->role == SPH_ROLE_FLUID || (s->role == SPH_ROLE_GHOST && s->compressible && s->kind == SPH_WALL_GHOST);
 }
 
-/* a ghost with density by continuity sums over the fluid only; its acceleration is not used */
-static void force_tile_of(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t role)
-{
-    if (role == SPH_ROLE_FLUID || sim->set[t->home_set[h]].role == SPH_ROLE_FLUID)
-        force_add(sim, t, h, role);
-}
-
 SPH_INLINE sph_real larger(sph_real a, sph_real b) { return a < b ? b : a; }
 
-/* forces and rates of one particle from its sums; adds gravity and the body force */
-static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+/* what the scene asked for besides forces: XSPH velocity, boundary forces, the body force, powers for the books */
+static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc)
 {
     const factors *f = &sim->fac;
     const sph_config *c = &sim->cfg;
     const sph_buffer *b = &sim->buf[sim->dst];
     const uint32_t i = t->home_at[h];
-    const sph_set *set = &sim->set[t->home_set[h]];
-    const bool weak = c->scheme != SPH_STANDARD && c->scheme != SPH_STANDARD_WICK, fluid = set->role == SPH_ROLE_FLUID;
-    sph_real (*s)[SPH_LANES] = t->sum[h];
-    sph_real d = v_fold(s[SUM_DRHO]) * f->slope, a2 = 0, v2 = 0;
-    d = (weak ? d * t->home.rho[h] : d) / set->rho0_r;
-    b->drho[0][i] = c->density == SPH_CONTINUITY ? d : 0;
-    if (!fluid)
-        return;
-    sph_real acc[SPH_DIM], body = 0;
-    for (int k = 0; k < SPH_DIM; k++) {
-        acc[k] = f->gravity[k] - v_fold(s[SUM_ACC + k]) * f->slope;
-        if (c->xsph != 0)
-            b->xsph[k][i] = v_fold(s[SUM_XSPH + k]) * (f->value * (sph_real)(2 * c->xsph));
-    }
+    sph_real body = 0;
+    if (c->xsph != 0)
+        for (int k = 0; k < SPH_DIM; k++)
+            b->xsph[k][i] = v_fold(t->sum[SUM_XSPH + k][h]) * (f->value * (sph_real)(2 * c->xsph));
     if (sim->has_force_wall)
         for (int k = 0; k < SPH_DIM; k++)
-            acc[k] += s[SUM_FORCE][k];
+            acc[k] += t->sum[SUM_FORCE][h][k];
     if (c->body_force) {
         double x[SPH_DIM], v[SPH_DIM], add[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
@@ -332,18 +318,40 @@ static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
             body += (sph_real)add[k] * t->home.v[k][h];
         }
     }
+    if (c->books) { /* powers per unit mass of this particle */
+        sim->power[0][i] = v_fold(t->sum[SUM_VISC][h]) * f->slope;
+        sim->power[1][i] = t->sum[SUM_FORCE][h][SPH_DIM] - v_fold(t->sum[SUM_WALL][h]) * f->slope;
+        sim->power[2][i] = v_fold(t->sum[SUM_DIFF][h]) * f->slope;
+        sim->power[3][i] = body;
+    }
+}
+
+/* forces and rates of one particle from its sums */
+static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const factors *f = &sim->fac;
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const uint32_t i = t->home_at[h];
+    const sph_set *set = &sim->set[t->home_set[h]];
+    sph_real acc[SPH_DIM], a2 = 0, v2 = 0;
+    sph_real d = v_fold(t->sum[SUM_DRHO][h]) * f->slope * set->inv_rho0_r;
+    if (f->rate_by_density)
+        d *= t->home.rho[h];
+    b->drho[0][i] = d = f->continuity ? d : 0;
+    if (set->role != SPH_ROLE_FLUID)
+        return;
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        acc[k] = f->gravity[k] - v_fold(t->sum[SUM_ACC + k][h]) * f->slope;
+    if (f->extras || sim->has_force_wall)
+        finish_extras(sim, t, h, acc);
+    SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
         b->acc[k][i] = acc[k];
         a2 += acc[k] * acc[k];
         v2 += t->home.v[k][h] * t->home.v[k][h];
     }
-    if (c->books) { /* powers per unit mass of this particle */
-        sim->power[0][i] = v_fold(s[SUM_VISC]) * f->slope;
-        sim->power[1][i] = s[SUM_FORCE][SPH_DIM] - v_fold(s[SUM_WALL]) * f->slope;
-        sim->power[2][i] = v_fold(s[SUM_DIFF]) * f->slope;
-        sim->power[3][i] = body;
-    }
-    t->peaks.mu = larger(t->peaks.mu, v_fold_max(s[SUM_MU]) * (2 * t->home.rho[h]));
+    t->peaks.mu = larger(t->peaks.mu, v_fold_max(t->sum[SUM_MU][h]) * (2 * t->home.rho[h]));
     t->peaks.acc = larger(t->peaks.acc, a2);
     t->peaks.speed = larger(t->peaks.speed, v2);
     if (!(a2 + d * d < SPH_LIMIT_SQUARE)) /* also catches not-a-number */
@@ -352,12 +360,14 @@ static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep any = {
-        force_home, 1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL, false, force_tile_of, force_finish};
-    static const sph_sweep with_iv = {
-        force_home, 1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL, true, force_tile_of, force_finish};
-    bool iv = sim->cfg.diffusion || (sim->cfg.scheme != SPH_STANDARD && sim->cfg.scheme != SPH_STANDARD_WICK);
-    sph_sweep_chunk(sim, iv ? &with_iv : &any, chunk, t);
+    const sph_config *c = &sim->cfg;
+    const sph_sweep w = {is_force_home,
+                         1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL,
+                         c->books || sim->has_force_wall ? SUM_FORCE + 1 : c->xsph != 0 ? SUM_VISC : SUM_XSPH,
+                         c->diffusion || (c->scheme != SPH_STANDARD && c->scheme != SPH_STANDARD_WICK),
+                         force_tile,
+                         force_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
 }
 
 static sph_status force_end(sph_sim *sim)
@@ -383,8 +393,8 @@ SPH_INLINE void density_tile(uint32_t kernel, const factors *f, sph_thread *th, 
     const home o = spread_home(&th->home, h);
     vreal mw[SPH_NV], vw[SPH_NV];
     for (int k = 0; k < SPH_NV; k++) {
-        mw[k] = v_load(th->sum[h][SUM_MW] + k * SPH_W);
-        vw[k] = v_load(th->sum[h][SUM_VW] + k * SPH_W);
+        mw[k] = v_load(th->sum[SUM_MW][h] + k * SPH_W);
+        vw[k] = v_load(th->sum[SUM_VW][h] + k * SPH_W);
     }
     for (uint32_t j = 0; j < t->n; j += SPH_LANES)
         for (uint32_t k = 0; k < SPH_NV; k++) {
@@ -397,24 +407,25 @@ SPH_INLINE void density_tile(uint32_t kernel, const factors *f, sph_thread *th, 
             vw[k] = vw[k] + w * v_load(t->iv + j + k * SPH_W);
         }
     for (int k = 0; k < SPH_NV; k++) {
-        v_store(th->sum[h][SUM_MW] + k * SPH_W, mw[k]);
-        v_store(th->sum[h][SUM_VW] + k * SPH_W, vw[k]);
+        v_store(th->sum[SUM_MW][h] + k * SPH_W, mw[k]);
+        v_store(th->sum[SUM_VW][h] + k * SPH_W, vw[k]);
     }
 }
 
-static void density_add(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t role)
+static void density_add(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    density_tile(sim->cfg.kernel, &sim->fac, t, h, role == SPH_ROLE_GHOST ? &t->ghost : &t->fluid);
+    for (uint32_t h = 0; h < homes; h++)
+        density_tile(sim->cfg.kernel, &sim->fac, t, h, role == SPH_ROLE_GHOST ? &t->ghost : &t->fluid);
 }
 
 static void summation_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_real rho0 = sim->set[t->home_set[h]].rho0_r;
-    sim->tmp[t->home_at[h]] = (v_fold(t->sum[h][SUM_MW]) * sim->fac.value - rho0) / rho0;
+    sim->tmp[t->home_at[h]] = (v_fold(t->sum[SUM_MW][h]) * sim->fac.value - rho0) / rho0;
 }
 static void summation_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {fluid_home, 1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST, true, density_add, summation_finish};
+    static const sph_sweep w = {fluid_home, 1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST, 2, true, density_add, summation_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 
@@ -422,11 +433,11 @@ static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_real rho0 = sim->set[t->home_set[h]].rho0_r;
     /* the particle itself is in both sums, so the lower one is never 0 */
-    sim->tmp[t->home_at[h]] = (v_fold(t->sum[h][SUM_MW]) / v_fold(t->sum[h][SUM_VW]) - rho0) / rho0;
+    sim->tmp[t->home_at[h]] = (v_fold(t->sum[SUM_MW][h]) / v_fold(t->sum[SUM_VW][h]) - rho0) / rho0;
 }
 static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {fluid_home, 1u << SPH_ROLE_FLUID, true, density_add, shepard_finish};
+    static const sph_sweep w = {fluid_home, 1u << SPH_ROLE_FLUID, 2, true, density_add, shepard_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 

@@ -58,7 +58,7 @@ typedef struct sph_set {
     double tangent[SPH_DIM];    /* 3-D: one of the two in-plane directions */
     double half[2], thick;      /* wall region behind the face: half extents along tangents, depth (m) */
     sph_pos low[SPH_DIM], high[SPH_DIM]; /* box around that region, quanta, at displacement 0 */
-    sph_real mass_r, rho0_r, b_r; /* what the sweep reads; b: pressure scale of the equation of state */
+    sph_real mass_r, rho0_r, inv_rho0_r, b_r; /* what the sweep reads; b: pressure scale of the equation of state */
 } sph_set;
 
 /* wall sets that move or vanish together */
@@ -83,6 +83,7 @@ typedef struct sph_peaks {
 typedef struct sph_factors {
     sph_real inv_h, eta, reach, reach2, slope, value;
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], gravity[SPH_DIM], small_p;
+    bool rate_by_density, continuity, extras;
 } sph_factors;
 
 /* everything of the state that is not an array; copied whole when a step commits */
@@ -120,6 +121,7 @@ struct sph_sim {
     /* grid */
     double quantum, length[SPH_DIM];
     sph_pos extent[SPH_DIM]; /* domain size, quanta */
+    sph_pos cell_size[SPH_DIM]; /* about; the cells' corners are where cell_mul puts them */
     uint32_t ncell[SPH_DIM], cells, slabs, slab_cells;
     uint32_t cell_mul[SPH_DIM]; /* cell index = (position * mul) >> 32 after a shift */
     uint32_t pos_shift;
@@ -197,6 +199,21 @@ double sph_kernel_w(const sph_sim *sim, double r);
 
 SPH_INLINE bool sph_finite(double x) { return x - x == 0; }
 SPH_INLINE double sph_abs(double x) { return x < 0 ? -x : x; }
+
+/* first index in s..e whose set differs from that of s; arrays may be read a little beyond e */
+SPH_INLINE uint32_t sph_run_end(const uint8_t *set, uint32_t s, uint32_t e)
+{
+    uint64_t first = set[s] * (uint64_t)0x0101010101010101u, next;
+    uint32_t i = s;
+    for (; i < e; i += 8) {
+        memcpy(&next, set + i, sizeof next);
+        if (next != first)
+            break;
+    }
+    while (i < e && set[i] == set[s])
+        i++;
+    return i < e ? i : e;
+}
 
 /* cell of a position along axis k; the position must be inside the domain */
 SPH_INLINE uint32_t sph_cell_axis(const sph_sim *sim, uint32_t k, sph_pos q)

@@ -128,17 +128,31 @@ SPH_INLINE vreal v_abs(vreal a) { return v_max(a, -a); }
 /* 0, 1, 2 ... */
 static const sph_real sph_lane_numbers[SPH_LANES] __attribute__((unused)) = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/* the one order in which eight partial sums become a sum */
+/* the one order in which eight partial sums become a sum: ((0+4)+(2+6)) + ((1+5)+(3+7)) */
+#if SPH_SCALAR
 SPH_INLINE sph_real v_fold(const sph_real *l)
 {
     return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
 }
+#else
+typedef sph_real vhalf __attribute__((vector_size(4 * SPH_REAL_BYTES)));
+SPH_INLINE sph_real v_fold(const sph_real *l)
+{
+    vhalf a, b;
+    memcpy(&a, l, sizeof a);
+    memcpy(&b, l + 4, sizeof b);
+    a = a + b;
+    return (a[0] + a[2]) + (a[1] + a[3]);
+}
+#endif
 SPH_INLINE sph_real v_fold_max(const sph_real *l)
 {
-    sph_real m = l[0];
-    for (int k = 1; k < SPH_LANES; k++)
-        m = m < l[k] ? l[k] : m;
-    return m;
+    sph_real m[4];
+    for (int k = 0; k < 4; k++)
+        m[k] = l[k] < l[k + 4] ? l[k + 4] : l[k];
+    m[0] = m[0] < m[2] ? m[2] : m[0];
+    m[1] = m[1] < m[3] ? m[3] : m[1];
+    return m[0] < m[1] ? m[1] : m[0];
 }
 
 #endif

@@ -172,6 +172,7 @@ static sph_status make_grid(sph_sim *s, sph_report *r)
         /* mul is rounded down so that a position at the domain's end still falls into the last cell */
         uint64_t ext = (uint64_t)(s->extent[k] >> s->pos_shift) + 1;
         s->cell_mul[k] = (uint32_t)(((uint64_t)s->ncell[k] << 32) / ext);
+        s->cell_size[k] = s->extent[k] / (sph_pos)s->ncell[k];
         cells *= s->ncell[k];
     }
     if (!(cells < 2147483648.0))

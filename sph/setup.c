@@ -36,6 +36,7 @@ static void finish_set(sph_sim *sim, sph_set *s)
         scale /= 7;
     s->mass_r = (sph_real)s->mass;
     s->rho0_r = (sph_real)s->rho0;
+    s->inv_rho0_r = (sph_real)(1 / s->rho0);
     s->b_r = (sph_real)scale;
     uint64_t h = sim->setup_hash;
     h = sph_mix(h, (uint64_t)s->role | (uint64_t)s->kind << 8 | (uint64_t)s->group << 16 |
@@ -339,9 +340,9 @@ double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
     }
     if (y < -0.99)
         y = -0.99;
-    /* (1 + y)^(1/7) - 1 by Newton from the first-order guess: five steps reach rounding for |y| < 10 */
-    double d = y > 1 ? sph_pow(1 + y, 1.0 / 7) - 1 : y / 7;
-    for (int i = 0; i < 8; i++) {
+    /* (1 + y)^(1/7) - 1 by Newton; each step squares the error, so the counts reach rounding from these guesses */
+    double d = y > 1 ? sph_pow(1 + y, 1.0 / 7) - 1 : y * (1.0 / 7 - y * (3.0 / 49));
+    for (int i = sph_abs(y) < 0.1 ? 2 : 7; i > 0; i--) {
         double f = d * (7 + d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d)))))) - y;
         double s2 = (1 + d) * (1 + d), s6 = s2 * s2 * s2;
         d -= f / (7 * s6);

@@ -30,7 +30,7 @@ static advance stage_advance(const sph_sim *sim)
     const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5, g = (sph_real)sim->cfg.damping;
     switch (sim->mode) {
     case SPH_ADV_PC: return (advance){dt, dt * half, dt, dt, g};     /* Gray 2.26, 2.27, 2.29 */
-    case SPH_ADV_KDK: return (advance){dt, dt * half, half, dt, g};
+    case SPH_ADV_KDK: return (advance){dt, dt * half, half, 0, g};
     case SPH_ADV_LEAP: /* the first step turns v^0 into v^(1/2) */
         return sim->now.started ? (advance){dt, 0, 0, 0, 1} : (advance){dt, dt * half, half, 0, 1};
     case SPH_ADV_RK: return (advance){half, 0, half, half, 1};       /* Wickramarachchi 3.85 */
@@ -66,7 +66,7 @@ int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v)
     return worst;
 }
 
-/* displaces fluid particles i..i+n of src; returns false if one moves too far or not finitely */
+/* displaces fluid particles i..i+n of src; returns false if one moves too far, not finitely, or out of the domain */
 static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_t n, block *o, uint32_t at, bool all)
 {
     const sph_buffer *b = &sim->buf[sim->src];
@@ -74,7 +74,7 @@ static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_
     vint bad = v_set_int(0);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         /* no further than a cell, and never so far that the integer overflows */
-        const vreal far = v_set((sph_real)(sim->extent[k] / (sph_pos)sim->ncell[k]));
+        const vreal far = v_set((sph_real)sim->cell_size[k]);
         const bool xsph = b->xsph[k] != NULL;
         for (uint32_t j = 0; j < n; j += SPH_W) {
             const vreal v = v_load(b->vel[k] + i + j), f = v_load(b->acc[k] + i + j);
@@ -83,9 +83,12 @@ static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_
             const vint ok = v_less(v_abs(d), far);
             const vreal safe = v_where(ok, d);
             const vint step = v_to_int(safe + v_select(v_less(safe, v_set(0)), -half, half));
-            /* lanes behind the run's end may hold anything */
-            bad |= ~ok & v_less(v_from_int(v_set_int((sph_int)j)) + v_load(sph_lane_numbers), v_set((sph_real)n));
-            v_store_int(o->pos[k] + at + j, v_load_int(b->pos[k] + i + j) + step);
+            const vint q = v_load_int(b->pos[k] + i + j) + step;
+            vint wrong = ~ok | v_less_int(q, v_set_int(0)) | ~v_less_int(q, v_set_int(sim->extent[k]));
+            if (j + SPH_W > n) /* lanes behind the run's end may hold anything */
+                wrong &= v_less(v_load(sph_lane_numbers), v_set((sph_real)(n - j)));
+            bad |= wrong;
+            v_store_int(o->pos[k] + at + j, q);
             if (all)
                 v_store(o->vel[k] + at + j, (v + f * a->kick) * a->damping);
         }
@@ -101,8 +104,9 @@ static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_
 }
 
 /* wall particles go where their group goes; their density changes only by continuity */
-static void move_wall(const sph_sim *sim, const advance *a, const sph_set *s, uint32_t i, uint32_t n, block *o, uint32_t at)
+static bool move_wall(const sph_sim *sim, const advance *a, const sph_set *s, uint32_t i, uint32_t n, block *o, uint32_t at)
 {
+    bool fine = !sim->next.group[s->group].removed;
     const sph_buffer *b = &sim->buf[sim->src];
     /* a Runge-Kutta step has walls at the step's end in both stages: they move in the first, by the copy */
     const sph_group_state *to = &sim->next.group[s->group], *from = &sim->now.group[s->group];
@@ -110,11 +114,13 @@ static void move_wall(const sph_sim *sim, const advance *a, const sph_set *s, ui
     for (uint32_t j = 0; j < n; j++) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             o->pos[k][at + j] = b->pos[k][i + j] + (moves ? to->moved[k] - from->moved[k] : 0);
+            fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->extent[k]);
             o->vel[k][at + j] = b->vel[k][i + j];
         }
         o->rho[at + j] = s->compressible ? b->rho[0][i + j] + b->drho[0][i + j] * a->rate : b->rho[0][i + j];
         o->gone[at + j] = to->removed ? 1 : 0;
     }
+    return fine;
 }
 
 static sph_status face_failure(sph_status s, uint32_t id, sph_thread *t, double value)
@@ -123,32 +129,11 @@ static sph_status face_failure(sph_status s, uint32_t id, sph_thread *t, double 
     return s;
 }
 
-/* the block of src from i on: new positions inside the domain, and who is gone. own: note failures and losses (exactly
-   one range owns a particle) */
-static void advance_block(const sph_sim *sim, const advance *a, uint32_t i, uint32_t n, block *o, bool all,
-                          uint32_t own_from, uint32_t own_to, sph_thread *t)
+/* the slow half of advance_block: applies the rules of the domain's faces, one particle after the other */
+static void mend_block(const sph_sim *sim, const advance *a, uint32_t i, uint32_t n, block *o, bool all, uint32_t own_from,
+                       uint32_t own_to, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->src];
-    memset(o->gone, 0, sizeof o->gone);
-    bool fine = true;
-    for (uint32_t j = 0; j < n;) {
-        const uint8_t set = b->set[0][i + j];
-        uint32_t e = j + 1;
-        while (e < n && b->set[0][i + e] == set)
-            e++;
-        if (set == SPH_DEAD)
-            memset(o->gone + j, 1, e - j);
-        else if (sim->set[set].role == SPH_ROLE_FLUID)
-            fine &= move_fluid(sim, a, i + j, e - j, o, j, all);
-        else
-            move_wall(sim, a, &sim->set[set], i + j, e - j, o, j);
-        j = e;
-    }
-    for (uint32_t k = 0; k < SPH_DIM; k++) /* anybody outside? one loop of integer compares */
-        for (uint32_t j = 0; j < n; j++)
-            fine &= (o->pos[k][j] >= 0) & (o->pos[k][j] < sim->extent[k]);
-    if (fine)
-        return;
     for (uint32_t j = 0; j < n; j++) {
         const bool own = i + j >= own_from && i + j < own_to;
         sph_pos q[SPH_DIM];
@@ -180,6 +165,30 @@ static void advance_block(const sph_sim *sim, const advance *a, uint32_t i, uint
                 o->vel[k][j] = v[k];
         }
     }
+}
+
+/* The block of src from i on: new positions inside the domain, and who is gone. Returns true if nobody is gone and nothing
+   is wrong. Failures and losses are noted for the particles own_from..own_to: exactly one range owns a particle. */
+static bool advance_block(const sph_sim *sim, const advance *a, uint32_t i, uint32_t n, block *o, bool all,
+                          uint32_t own_from, uint32_t own_to, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->src];
+    bool fine = true;
+    for (uint32_t j = 0; j < n;) {
+        const uint8_t set = b->set[0][i + j];
+        const uint32_t e = sph_run_end(b->set[0], i + j, i + n) - i;
+        memset(o->gone + j, set == SPH_DEAD, e - j);
+        if (set == SPH_DEAD)
+            fine = false;
+        else if (sim->set[set].role == SPH_ROLE_FLUID)
+            fine &= move_fluid(sim, a, i + j, e - j, o, j, all);
+        else
+            fine &= move_wall(sim, a, &sim->set[set], i + j, e - j, o, j);
+        j = e;
+    }
+    if (!fine)
+        mend_block(sim, a, i, n, o, all, own_from, own_to, t);
+    return fine;
 }
 
 /* ---- ranges ---- */
@@ -228,36 +237,68 @@ static bool slab_too_far(const sph_sim *sim, uint32_t from, uint32_t to)
     return d > 1 && !(sim->cfg.face[SPH_DIM - 1][0] == SPH_PERIODIC && d == sim->slabs - 1);
 }
 
+/* where the count leaves each particle's cell for the scatter: in dst.acc, which is free until the forces */
+SPH_INLINE void keep_cell(const sph_sim *sim, uint32_t i, uint32_t cell)
+{
+    memcpy((unsigned char *)sim->buf[sim->dst].acc[0] + 4 * (size_t)i, &cell, sizeof cell);
+}
+SPH_INLINE uint32_t kept_cell(const sph_sim *sim, uint32_t i)
+{
+    uint32_t cell;
+    memcpy(&cell, (const unsigned char *)sim->buf[sim->dst].acc[0] + 4 * (size_t)i, sizeof cell);
+    return cell;
+}
+
+#define NO_CELL 0xffffffffu
+
+/* cells of a block; NO_CELL for who is gone. The range that owns a particle also checks its way and keeps its cell. */
+static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, const block *o, bool fine, uint32_t *slab,
+                        uint32_t *cell, sph_thread *t)
+{
+    for (uint32_t j = 0; j < n; j++) {
+        sph_pos q[SPH_DIM];
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            q[k] = o->pos[k][j];
+        cell[j] = sph_cell_of(sim, q);
+    }
+    for (uint32_t j = 0; !fine && j < n; j++)
+        if (o->gone[j])
+            cell[j] = NO_CELL;
+    const uint32_t from = i > g->own_from ? i : g->own_from, to = i + n < g->own_to ? i + n : g->own_to;
+    for (uint32_t p = from; p < to; p++) {
+        const uint32_t c = cell[p - i];
+        keep_cell(sim, p, c);
+        if (!sim->src_table || c == NO_CELL)
+            continue;
+        while (*slab + 1 < g->hi && sim->slab[*slab + 1] <= p)
+            ++*slab;
+        /* unsigned: cells of the slab itself and its two neighbours */
+        const uint32_t low = *slab * sim->slab_cells - sim->slab_cells;
+        if (c - low >= 3 * sim->slab_cells && slab_too_far(sim, *slab, c / sim->slab_cells))
+            sph_fail_note(t, SPH_MOVED_TOO_FAR, sim->buf[sim->src].id[0][p], 2);
+    }
+}
+
 static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
 {
     const advance a = stage_advance(sim);
     const range g = make_range(sim, r);
     const uint32_t c0 = g.lo * sim->slab_cells, c1 = g.hi * sim->slab_cells;
-    uint32_t total = 0, slab = g.lo;
+    uint32_t total = 0, slab = g.lo, cell[BLOCK];
+    uint32_t *const count = sim->cell + 1;
     block o;
-    memset(sim->cell + c0 + 1, 0, (size_t)(c1 - c0) * sizeof *sim->cell);
+    memset(count + c0, 0, (size_t)(c1 - c0) * sizeof *count);
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += BLOCK) {
-            uint32_t n = g.to[p] - i < BLOCK ? g.to[p] - i : BLOCK;
-            advance_block(sim, &a, i, n, &o, false, g.own_from, g.own_to, t);
-            for (uint32_t j = 0; j < n; j++) {
-                if (o.gone[j])
-                    continue;
-                sph_pos q[SPH_DIM];
-                for (uint32_t k = 0; k < SPH_DIM; k++)
-                    q[k] = o.pos[k][j];
-                uint32_t c = sph_cell_of(sim, q);
-                if (sim->src_table && i + j >= g.own_from && i + j < g.own_to) {
-                    while (slab + 1 < g.hi && sim->slab[slab + 1] <= i + j)
-                        slab++;
-                    if (slab_too_far(sim, slab, c / sim->slab_cells))
-                        sph_fail_note(t, SPH_MOVED_TOO_FAR, sim->buf[sim->src].id[0][i + j], 2);
-                }
-                if (c >= c0 && c < c1) {
-                    sim->cell[c + 1]++;
+            const uint32_t n = g.to[p] - i < BLOCK ? g.to[p] - i : BLOCK;
+            const bool fine = advance_block(sim, &a, i, n, &o, false, g.own_from, g.own_to, t);
+            block_cells(sim, &g, i, n, &o, fine, &slab, cell, t);
+            for (uint32_t j = 0; j < n; j++)
+                if (cell[j] - c0 < c1 - c0) {
+                    count[cell[j]]++;
                     total++;
                 }
-            }
             t->work += n;
         }
     sim->range_count[r] = total;
@@ -290,6 +331,19 @@ static void order_cell(const sph_sim *sim, uint32_t s, uint32_t e)
             swap_particles(&sim->buf[sim->dst], j, j - 1);
 }
 
+/* n particles of a block, from number j on, to the places at, at + 1, ... of dst */
+static void put_run(const sph_buffer *b, const block *o, const uint8_t *set, uint32_t i, uint32_t j, uint32_t n, uint32_t at)
+{
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        memcpy(b->pos[k] + at, o->pos[k] + j, n * sizeof(sph_pos));
+        memcpy(b->vel[k] + at, o->vel[k] + j, n * sizeof(sph_real));
+    }
+    memcpy(b->rho[0] + at, o->rho + j, n * sizeof(sph_real));
+    memcpy(b->set[0] + at, set + j, n);
+    for (uint32_t l = 0; l < n; l++)
+        b->id[0][at + l] = i + j + l;
+}
+
 static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
 {
     const advance a = stage_advance(sim);
@@ -307,27 +361,25 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
     }
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += BLOCK) {
-            uint32_t n = g.to[p] - i < BLOCK ? g.to[p] - i : BLOCK;
-            advance_block(sim, &a, i, n, &o, true, g.own_from, g.own_to, t);
+            const uint32_t n = g.to[p] - i < BLOCK ? g.to[p] - i : BLOCK;
+            uint32_t at[BLOCK], mine = 0;
             for (uint32_t j = 0; j < n; j++) {
-                sph_pos q[SPH_DIM];
-                for (uint32_t k = 0; k < SPH_DIM; k++)
-                    q[k] = o.pos[k][j];
-                if (o.gone[j])
-                    continue;
-                uint32_t c = sph_cell_of(sim, q);
-                if (c < c0 || c >= c1)
-                    continue;
-                uint32_t at = cell[c + 1]++;
-                for (uint32_t k = 0; k < SPH_DIM; k++) {
-                    b->pos[k][at] = q[k];
-                    b->vel[k][at] = o.vel[k][j];
-                }
-                b->rho[0][at] = o.rho[j];
-                b->id[0][at] = i + j;
-                b->set[0][at] = set[i + j];
+                const uint32_t c = kept_cell(sim, i + j);
+                at[j] = c - c0 < c1 - c0 ? cell[c + 1]++ : NO_CELL;
+                mine += at[j] != NO_CELL;
             }
             t->work += n;
+            if (mine == 0)
+                continue;
+            advance_block(sim, &a, i, n, &o, true, 0, 0, t);
+            for (uint32_t j = 0; j < n;) { /* runs of particles that stay next to each other are copied as one */
+                uint32_t e = j + 1;
+                while (e < n && at[e] == at[e - 1] + 1)
+                    e++;
+                if (at[j] != NO_CELL)
+                    put_run(b, &o, set + i, i, j, e - j, at[j]);
+                j = e;
+            }
         }
     uint32_t start = run, widest = 0;
     for (uint32_t c = c0; c < c1; c++) {

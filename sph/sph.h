@@ -128,7 +128,7 @@ enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
 /* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:
-   velocity Verlet; velocity-dependent terms see the half-step velocity. LEAP_FROG: Powell 2012 algorithm 1.1,
+   velocity Verlet; density drifts with the half-step velocity, so a step takes two sweeps (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1,
    rates then forces (two sweeps), velocities half a step behind. RUNGE_KUTTA: Wickramarachchi 3.85-3.87;
    RUNGE_KUTTA_MOMENTUM: his 3.91-3.92 (algebraically the same midpoint rule, rounded differently). */
 enum {
@@ -511,8 +511,10 @@ uint64_t sph_hash(const sph_sim *sim);
 
 /* ---- 11 dump and restore ---------------------------------------------------------------------------
    Little-endian on every machine, versioned, self-describing, checksummed by section (layout: dump.c). The sink and
-   source get pieces of at most SPH_PIECE bytes and return false to fail. A full dump (fields SPH_DUMP_FULL) restores
-   a run that goes on with the same bits; a reduced one carries the chosen fields for pictures. */
+   source move pieces of at most SPH_PIECE bytes and return false to fail. A full dump (fields SPH_DUMP_FULL) restores a
+   run that goes on with the same bits; a reduced one carries the chosen fields for pictures. Between the slices of a
+   step a dump holds the state of the step's beginning. Each function uses less than 1 KiB of stack.
+   Fails: SPH_BAD_ARGUMENT (no sink, unknown fields), SPH_SINK_FAILED. */
 #define SPH_PIECE 256u
 typedef bool (*sph_sink)(void *ctx, const void *bytes, size_t n);
 typedef bool (*sph_source)(void *ctx, void *bytes, size_t n); /* must fill n bytes or return false */
@@ -524,8 +526,13 @@ typedef bool (*sph_source)(void *ctx, void *bytes, size_t n); /* must fill n byt
 #define SPH_DUMP_FULL 0x80000000u
 #define sph_dump SPH_NAME(dump)
 sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ctx);
-/* Restores a full dump into a simulation that was initialised with the same configuration and the same sets and walls.
-   Reads the stream once into the spare half of the arena; on any failure the simulation is as it was. */
+/* Restores a full dump into a simulation that was initialised with the same configuration and then given the same
+   sets and walls, in the same order; it may have run since. Gravity, damping and the fixed dt become those of the
+   dump (sph_reconfigure may change them again); hooks and threads stay those of the simulation. Reads the stream once,
+   into the spare half of the arena, and commits only when every checksum and value was seen to be right; on any failure the
+   simulation is as it was. A source that returns false is taken as the stream's end.
+   Fails: SPH_BAD_STATE (a step is under way), SPH_DUMP_TRUNCATED, SPH_DUMP_CORRUPT, SPH_DUMP_FOREIGN, SPH_DUMP_NEWER,
+   SPH_DUMP_MISMATCH (a reduced dump, or one of another configuration, set-up or capacity). */
 #define sph_restore SPH_NAME(restore)
 sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx);
 

@@ -58,29 +58,34 @@ static span chunk_span(const sph_sim *sim, uint32_t chunk)
 }
 
 /* indices become ids, and walls get the zeros that sums did not write */
-static void settle(const sph_sim *sim, uint32_t i)
+static void settle(const sph_sim *sim, span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    const sph_set *s = &sim->set[b->set[0][i]];
-    b->id[0][i] = sim->buf[sim->src].id[0][b->id[0][i]];
-    if (s->role == SPH_ROLE_FLUID)
-        return;
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        b->acc[k][i] = 0;
-        if (b->xsph[k])
-            b->xsph[k][i] = 0;
+    uint32_t *id = b->id[0];
+    const uint32_t *of = sim->buf[sim->src].id[0];
+    for (uint32_t i = s.first; i < s.last; i++)
+        id[i] = of[id[i]];
+    for (uint32_t i = s.first, e; i < s.last; i = e) {
+        e = sph_run_end(b->set[0], i, s.last);
+        if (b->set[0][i] == SPH_DEAD || sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
+            continue;
+        const size_t bytes = (e - i) * sizeof(sph_real);
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            memset(b->acc[k] + i, 0, bytes);
+            if (b->xsph[k])
+                memset(b->xsph[k] + i, 0, bytes);
+        }
+        if (!sim->set[b->set[0][i]].compressible)
+            memset(b->drho[0] + i, 0, bytes);
+        for (uint32_t k = 0; sim->cfg.books && k < SPH_POWERS; k++)
+            memset(sim->power[k] + i, 0, bytes);
     }
-    if (!s->compressible)
-        b->drho[0][i] = 0;
-    for (uint32_t k = 0; sim->cfg.books && k < SPH_POWERS; k++)
-        sim->power[k][i] = 0;
 }
 
 static void settle_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const span s = chunk_span(sim, chunk);
-    for (uint32_t i = s.first; i < s.last; i++)
-        settle(sim, i);
+    settle(sim, s);
     t->work += s.last - s.first;
 }
 
@@ -88,14 +93,21 @@ static void settle_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 static void check_span(sph_sim *sim, span s, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    int fine = 1;
-    for (uint32_t i = s.first; i < s.last; i++) {
-        sph_real v2 = 0, d = b->rho[0][i];
+    vint wrong = v_set_int(0);
+    for (uint32_t i = s.first; i < s.last; i += SPH_W) {
+        const vreal d = v_load(b->rho[0] + i);
+        vreal v2 = v_set(0);
         SPH_UNROLL
-        for (uint32_t k = 0; k < SPH_DIM; k++)
-            v2 += b->vel[k][i] * b->vel[k][i];
-        fine &= (v2 < SPH_LIMIT_SQUARE) & (d > (sph_real)-0.9) & (d < 99);
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            const vreal v = v_load(b->vel[k] + i);
+            v2 = v2 + v * v;
+        }
+        wrong |= ~(v_less(v2, v_set(SPH_LIMIT_SQUARE)) & v_less(v_set((sph_real)-0.9), d) & v_less(d, v_set(99)));
     }
+    sph_int lanes[SPH_W], fine = 1;
+    v_store_int(lanes, wrong);
+    for (int l = 0; l < SPH_W; l++)
+        fine &= lanes[l] == 0; /* lanes beyond the last particle may cry wolf: the loop below looks again */
     for (uint32_t i = s.first; !fine && i < s.last; i++) {
         sph_real v2 = 0, d = b->rho[0][i];
         for (uint32_t k = 0; k < SPH_DIM; k++)
@@ -128,8 +140,7 @@ static void sum_powers(sph_sim *sim, uint32_t chunk, span s)
 
 static void finish_span(sph_sim *sim, uint32_t chunk, span s, sph_thread *t)
 {
-    for (uint32_t i = s.first; i < s.last; i++)
-        settle(sim, i);
+    settle(sim, s);
     sph_cross_walls(sim, s.first, s.last, t);
     check_span(sim, s, t);
     if (sim->cfg.books)
@@ -138,31 +149,34 @@ static void finish_span(sph_sim *sim, uint32_t chunk, span s, sph_thread *t)
 }
 
 /* v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28, 2.29);
-   with the half-step velocity of kick-drift-kick: v = damping (v_h + dt/2 a) */
-static void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
+   kick-drift-kick: v = damping (v_h + dt/2 a), and the density has had its whole step already */
+SPH_INLINE void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
 {
     const span s = chunk_span(sim, chunk);
-    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const sph_buffer b = sim->buf[sim->dst], o = sim->buf[sim->src];
     const sph_real half = (sph_real)sim->dt * (sph_real)0.5, g = (sph_real)sim->cfg.damping;
-    for (uint32_t i = s.first; i < s.last; i++) {
-        const uint32_t p = b->id[0][i];
-        const sph_set *set = &sim->set[b->set[0][i]];
+    for (uint32_t i = s.first; i < s.last;) {
+        const uint32_t e = sph_run_end(b.set[0], i, s.last);
+        const sph_set *set = &sim->set[b.set[0][i]];
         const bool fluid = set->role == SPH_ROLE_FLUID;
-        if (fluid)
-            SPH_UNROLL
-            for (uint32_t k = 0; k < SPH_DIM; k++) {
-                const sph_real a = kdk ? b->acc[k][i] : b->acc[k][i] - o->acc[k][p];
-                b->vel[k][i] = g * (b->vel[k][i] + half * a);
+        for (uint32_t j = i; j < e && !kdk && (fluid || set->compressible); j++)
+            b.rho[0][j] = b.rho[0][j] + half * (b.drho[0][j] - o.drho[0][b.id[0][j]]);
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            for (uint32_t j = i; j < e && fluid; j++) {
+                const sph_real a = kdk ? b.acc[k][j] : b.acc[k][j] - o.acc[k][b.id[0][j]];
+                b.vel[k][j] = g * (b.vel[k][j] + half * a);
             }
-        if (fluid || set->compressible)
-            b->rho[0][i] = b->rho[0][i] + half * (b->drho[0][i] - o->drho[0][p]);
+        i = e;
     }
     finish_span(sim, chunk, s, t);
 }
 static void correct_pc_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, false); }
 static void correct_kdk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, true); }
 
-/* leap-frog (Powell 2012 algorithm 1.1): the density goes a whole step with the rates of the half-step velocity */
+/* Leap-frog (Powell 2012 algorithm 1.1) and kick-drift-kick: the density goes a whole step with the rates of the half-step
+   velocity at the new positions, like a position; then come the forces. (Taking the rates of the velocity at the ends,
+   with one sweep, makes sound waves grow.) */
 static void leap_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const span s = chunk_span(sim, chunk);
@@ -251,18 +265,7 @@ static void rk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const span s = chunk_span(sim, chunk);
     for (uint32_t i = s.first; i < s.last; i++)
         rk_particle(sim, i, t);
-    /* ids are settled for the dead too */
-    const sph_buffer *b = &sim->buf[sim->dst];
-    for (uint32_t i = s.first; i < s.last; i++)
-        if (b->set[0][i] == SPH_DEAD)
-            b->id[0][i] = sim->buf[sim->src].id[0][b->id[0][i]];
-        else
-            settle(sim, i);
-    sph_cross_walls(sim, s.first, s.last, t);
-    check_span(sim, s, t);
-    if (sim->cfg.books)
-        sum_powers(sim, chunk, s);
-    t->work += s.last - s.first;
+    finish_span(sim, chunk, s, t);
 }
 
 /* books: powers integrate by the trapezoidal rule */
@@ -309,7 +312,8 @@ static const sph_pass pass_rk = {"advance", sph_local_chunks, rk_chunk, add_book
 #define FORCES &sph_pass_adami, &sph_pass_force
 static const sph_pass *const prime_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_prime, NULL};
 static const sph_pass *const pc_program[] = {&pass_begin_pc, SORT, FILTER, FORCES, &pass_correct_pc, NULL};
-static const sph_pass *const kdk_program[] = {&pass_begin_kdk, SORT, FILTER, FORCES, &pass_correct_kdk, NULL};
+static const sph_pass *const kdk_program[] = {&pass_begin_kdk, SORT, FORCES, &pass_leap_density, FILTER,
+                                              FORCES, &pass_correct_kdk, NULL};
 static const sph_pass *const leap_program[] = {&pass_begin_leap, SORT, FORCES, &pass_leap_density, FILTER,
                                                FORCES, &pass_leap_velocity, NULL};
 static const sph_pass *const rk_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_settle,

@@ -20,6 +20,7 @@ typedef struct filling {
     const sph_buffer *b;
     sph_pos origin[SPH_DIM];
     uint32_t homes;
+    bool usual; /* the scene takes the fast path of loading */
 } filling;
 
 /* p from the relative density excess (Gray 2001 eq 2.25; Horner form, exact for small d) */
@@ -34,53 +35,73 @@ SPH_INLINE vreal pressure(uint32_t eos, bool floor, vreal b, vreal d)
     return floor ? v_pos(p) : p;
 }
 
-SPH_INLINE void put(sph_real *dst, vreal v) { v_store(dst, v); }
+/* the choices of a scene that a tile's columns depend on; constants in the fast path */
+typedef struct columns {
+    uint32_t eos;
+    bool ratio, floor, iv;
+} columns;
 
-/* positions of n particles from s, as reals relative to the home cell; whole vectors, so up to 7 beyond are written */
-static void load_x(const filling *f, const image *im, uint32_t s, uint32_t n, sph_real (*x)[SPH_TILE + 8], uint32_t at)
+/* Coordinate k of W particles from index s on, relative to the home cell. */
+SPH_INLINE vreal load_axis(const filling *f, const image *im, uint32_t k, uint32_t s, bool is_image)
 {
     const vreal quantum = v_set((sph_real)f->sim->quantum);
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        const sph_pos *p = f->b->pos[k] + s;
-        if (!im->is_image) {
-            const vint o = v_set_int(f->origin[k]);
-            for (uint32_t j = 0; j < n; j += SPH_W)
-                put(x[k] + at + j, v_from_int(v_load_int(p + j) - o) * quantum);
-        } else {
-            const vint o = v_set_int(im->shift[k] - f->origin[k]), sg = v_set_int(im->sign[k]);
-            for (uint32_t j = 0; j < n; j += SPH_W)
-                put(x[k] + at + j, v_from_int(v_load_int(p + j) * sg + o) * quantum);
+    const vint q = v_load_int(f->b->pos[k] + s);
+    if (!is_image)
+        return v_from_int(q - v_set_int(f->origin[k])) * quantum;
+    return v_from_int(q * v_set_int(im->sign[k]) + v_set_int(im->shift[k] - f->origin[k])) * quantum;
+}
+
+/* The columns of n particles of one set from index s on. Whole vectors are written: up to 7 elements beyond the last are
+   filled with what follows in memory, and overwritten by the next run or by close_tile. */
+SPH_INLINE void load_columns(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n, sph_tile *t,
+                             columns c, bool is_image, bool wall)
+{
+    const vreal m = v_set(set->mass_r), r0 = v_set(set->rho0_r), b = v_set(set->b_r);
+    const uint32_t at = t->n;
+    for (uint32_t j = 0; j < n; j += SPH_W) {
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            vreal v = wall ? v_set((sph_real)f->sim->next.group[set->group].vel[k]) : v_load(f->b->vel[k] + s + j);
+            v_store(t->x[k] + at + j, load_axis(f, im, k, s + j, is_image));
+            v_store(t->v[k] + at + j, is_image ? v * im->flip[k] : v);
         }
+        const vreal e = v_load(f->b->rho[0] + s + j);
+        const vreal rho = (1 + e) * r0, p = pressure(c.eos, c.floor, b, e);
+        v_store(t->m + at + j, m);
+        v_store(t->rho + at + j, rho);
+        v_store(t->a + at + j, c.ratio ? p / (rho * rho) : p);
+        if (c.iv)
+            v_store(t->iv + at + j, 1 / rho);
     }
 }
 
-/* the rest of a tile's columns for a run of one set */
-static void load_state(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n, sph_tile *t)
+static __attribute__((noinline)) void load_any(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n,
+                                               sph_tile *t)
 {
     const sph_config *c = &f->sim->cfg;
-    const uint32_t at = t->n, eos = c->eos;
-    const bool ratio = c->scheme == SPH_STANDARD || c->scheme == SPH_STANDARD_WICK;
-    const vreal m = v_set(set->mass_r), r0 = v_set(set->rho0_r), b = v_set(set->b_r);
-    const sph_real *d = f->b->rho[0] + s;
-    const bool wall = set->role == SPH_ROLE_GHOST, iv = f->w->needs_iv;
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        const sph_real *v = f->b->vel[k] + s;
-        const vreal flip = v_set(im->flip[k]);
-        vreal wv = v_set(0);
-        if (wall)
-            wv = v_set((sph_real)f->sim->next.group[set->group].vel[k]) * flip;
+    const columns cols = {c->eos, c->scheme == SPH_STANDARD || c->scheme == SPH_STANDARD_WICK, c->pressure_floor,
+                          f->w->needs_iv};
+    load_columns(f, im, set, s, n, t, cols, im->is_image, set->role == SPH_ROLE_GHOST);
+}
+
+static void load(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n, sph_tile *t)
+{
+#if SPH_WITH_FAST_PATHS
+    static const columns usual = {SPH_TAIT, true, false, false};
+    if (f->usual && !im->is_image && set->role == SPH_ROLE_FLUID) {
+        load_columns(f, im, set, s, n, t, usual, false, false);
+        return;
+    }
+#endif
+    load_any(f, im, set, s, n, t);
+}
+
+/* positions only, for boundary-force particles */
+static void load_positions(const filling *f, const image *im, uint32_t s, uint32_t n, sph_real (*x)[SPH_TILE + 8], uint32_t at)
+{
+    for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t j = 0; j < n; j += SPH_W)
-            put(t->v[k] + at + j, wall ? wv : v_load(v + j) * flip);
-    }
-    for (uint32_t j = 0; j < n; j += SPH_W) {
-        const vreal e = v_load(d + j);
-        const vreal rho = (1 + e) * r0, p = pressure(eos, c->pressure_floor, b, e);
-        put(t->m + at + j, m);
-        put(t->rho + at + j, rho);
-        put(t->a + at + j, ratio ? p / (rho * rho) : p);
-        if (iv)
-            put(t->iv + at + j, 1 / rho);
-    }
+            v_store(x[k] + at + j, load_axis(f, im, k, s + j, im->is_image));
 }
 
 /* normals, depths and viscous velocities of a run of ghost particles already loaded at `at` */
@@ -137,8 +158,7 @@ static void flush(filling *f, uint32_t role)
         close_tile(f, &t->fluid, false);
     else if (role == SPH_ROLE_GHOST)
         close_tile(f, &t->ghost, true);
-    for (uint32_t h = 0; h < f->homes; h++)
-        f->w->tile(f->sim, t, h, role);
+    f->w->tile(f->sim, t, f->homes, role);
     t->pairs += (uint64_t)n * f->homes;
     if (role == SPH_ROLE_FLUID)
         t->fluid.n = 0;
@@ -146,22 +166,6 @@ static void flush(filling *f, uint32_t role)
         t->ghost.n = 0;
     else
         t->forces = 0;
-}
-
-/* first index in s..e whose set differs from that of s */
-static uint32_t run_end(const uint8_t *set, uint32_t s, uint32_t e)
-{
-    uint64_t first, next;
-    uint32_t i = s + 1;
-    memset(&first, set[s], sizeof first);
-    for (; i + 8 <= e; i += 8) {
-        memcpy(&next, set + i, sizeof next);
-        if (next != first)
-            break;
-    }
-    while (i < e && set[i] == set[s])
-        i++;
-    return i;
 }
 
 /* candidates s..e of one set into their tile */
@@ -174,14 +178,12 @@ static void add_run(filling *f, const image *im, const sph_set *set, uint32_t s,
             flush(f, set->role);
         uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
         if (set->role == SPH_ROLE_FLUID) {
-            load_x(f, im, s, take, t->fluid.x, *n);
-            load_state(f, im, set, s, take, &t->fluid);
+            load(f, im, set, s, take, &t->fluid);
         } else if (set->role == SPH_ROLE_GHOST) {
-            load_x(f, im, s, take, t->ghost.x, *n);
-            load_state(f, im, set, s, take, &t->ghost);
+            load(f, im, set, s, take, &t->ghost);
             load_ghost(f, im, set, s, take, *n);
         } else {
-            load_x(f, im, s, take, t->fx, *n);
+            load_positions(f, im, s, take, t->fx, *n);
             memset(t->fset + *n, f->b->set[0][s], take);
         }
         *n += take;
@@ -194,7 +196,7 @@ static void add_cells(filling *f, const image *im, uint32_t c0, uint32_t c1)
 {
     uint32_t s = f->sim->cell[c0], e = f->sim->cell[c1 + 1];
     while (s < e) {
-        uint32_t r = run_end(f->b->set[0], s, e);
+        uint32_t r = sph_run_end(f->b->set[0], s, e);
         if (f->b->set[0][s] != SPH_DEAD) {
             const sph_set *set = &f->sim->set[f->b->set[0][s]];
             if (f->w->classes >> set->role & 1)
@@ -261,6 +263,21 @@ static void add_row(filling *f, const image *im, uint32_t row, uint32_t cx)
 
 static void add_all(filling *f, const uint32_t *c)
 {
+#if SPH_DIM > 1
+    /* away from the domain's faces there are no images and every row has three cells */
+    bool inner = true;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        inner &= c[k] > 0 && c[k] + 1 < f->sim->ncell[k];
+    if (inner) {
+        const uint32_t nx = f->sim->ncell[0];
+        for (uint32_t z = SPH_DIM == 3 ? c[2] - 1 : 0; z <= (SPH_DIM == 3 ? c[2] + 1 : 0); z++)
+            for (uint32_t y = c[1] - 1; y <= c[1] + 1; y++) {
+                uint32_t row = (z * f->sim->ncell[1] + y) * nx + c[0];
+                add_cells(f, &no_image, row - 1, row + 1);
+            }
+        return;
+    }
+#endif
 #if SPH_DIM == 1
     add_row(f, &no_image, 0, c[0]);
 #elif SPH_DIM == 2
@@ -292,15 +309,14 @@ static void load_homes(filling *f, uint32_t *s, uint32_t e)
     t->home.n = 0;
     f->homes = 0;
     while (*s < e && f->homes < SPH_HOMES) {
-        uint32_t r = run_end(f->b->set[0], *s, e);
+        uint32_t r = sph_run_end(f->b->set[0], *s, e);
         uint8_t set = f->b->set[0][*s];
         if (set == SPH_DEAD || !f->w->home(f->sim, &f->sim->set[set])) {
             *s = r;
             continue;
         }
         uint32_t n = r - *s < SPH_HOMES - f->homes ? r - *s : SPH_HOMES - f->homes;
-        load_x(f, &no_image, *s, n, t->home.x, t->home.n);
-        load_state(f, &no_image, &f->sim->set[set], *s, n, &t->home);
+        load(f, &no_image, &f->sim->set[set], *s, n, &t->home);
         for (uint32_t j = 0; j < n; j++) {
             t->home_at[f->homes + j] = *s + j;
             t->home_set[f->homes + j] = set;
@@ -315,15 +331,15 @@ static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
 {
     const sph_sim *sim = f->sim;
     uint32_t s = sim->cell[cell], e = sim->cell[cell + 1];
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        f->origin[k] = (sph_pos)c[k] * (sim->extent[k] / (sph_pos)sim->ncell[k]);
-        f->t->origin[k] = (double)f->origin[k] * sim->quantum;
-    }
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        f->origin[k] = (sph_pos)c[k] * sim->cell_size[k];
     while (s < e) {
         load_homes(f, &s, e);
         if (f->homes == 0)
             return;
-        memset(f->t->sum, 0, f->homes * sizeof f->t->sum[0]);
+        for (uint32_t a = 0; a < f->w->sums; a++)
+            for (uint32_t h = 0; h < f->homes; h++) /* eight reals: a store or two, not a call */
+                memset(f->t->sum[a][h], 0, sizeof f->t->sum[a][h]);
         f->t->fluid.n = f->t->ghost.n = f->t->forces = 0;
         add_all(f, c);
         flush(f, SPH_ROLE_FLUID);
@@ -348,17 +364,24 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     f.t = t;
     f.b = &sim->buf[sim->dst];
     f.homes = 0;
+    const sph_config *cfg = &sim->cfg;
+    f.usual = cfg->eos == SPH_TAIT && cfg->scheme == SPH_STANDARD && !cfg->pressure_floor && !w->needs_iv;
     uint64_t before = t->pairs;
-    uint32_t last = (chunk + 1) * SPH_SWEEP_CHUNK < sim->cells ? (chunk + 1) * SPH_SWEEP_CHUNK : sim->cells;
-    for (uint32_t cell = chunk * SPH_SWEEP_CHUNK; cell < last; cell++) {
-        if (sim->cell[cell] == sim->cell[cell + 1])
-            continue;
-        uint32_t c[3], q = cell;
-        for (uint32_t k = 0; k < SPH_DIM; k++) {
-            c[k] = q % sim->ncell[k];
-            q /= sim->ncell[k];
+    uint32_t cell = chunk * SPH_SWEEP_CHUNK, c[3], q = cell;
+    uint32_t last = cell + SPH_SWEEP_CHUNK < sim->cells ? cell + SPH_SWEEP_CHUNK : sim->cells;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        c[k] = q % sim->ncell[k];
+        q /= sim->ncell[k];
+    }
+    for (; cell < last; cell++) {
+        while (cell + 8 < last && c[0] + 8 < sim->ncell[0] && sim->cell[cell] == sim->cell[cell + 8]) {
+            cell += 8; /* eight empty cells */
+            c[0] += 8;
         }
-        sweep_cell(&f, cell, c);
+        if (sim->cell[cell] != sim->cell[cell + 1])
+            sweep_cell(&f, cell, c);
+        for (uint32_t k = 0; k < SPH_DIM && ++c[k] == sim->ncell[k]; k++)
+            c[k] = k + 1 < SPH_DIM ? 0 : c[k];
     }
     t->work += t->pairs - before + SPH_SWEEP_CHUNK;
 }

@@ -44,8 +44,7 @@ typedef struct sph_thread {
     uint8_t fset[SPH_TILE + 8];
     uint32_t home_at[SPH_HOMES]; /* index of the home particle */
     uint8_t home_set[SPH_HOMES];
-    sph_real sum[SPH_HOMES][SPH_SUMS][SPH_LANES];
-    double origin[SPH_DIM]; /* of the home cell, from the domain's low corner (m) */
+    sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */
     /* what a pass gathers over its chunks: order does not matter for any of these */
     uint64_t work, pairs;
     sph_peaks peaks;
@@ -56,9 +55,10 @@ typedef struct sph_thread {
 typedef struct sph_sweep {
     bool (*home)(const sph_sim *sim, const sph_set *set);
     uint32_t classes;  /* an or of 1 << SPH_ROLE_... that are candidates */
+    uint32_t sums;     /* how many of SPH_SUMS it uses */
     bool needs_iv;
-    void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t home, uint32_t role); /* add a tile to home's sums */
-    void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                    /* sums are complete */
+    void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role); /* add a tile to the homes' sums */
+    void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                     /* a home's sums are complete */
 } sph_sweep;
 
 #define sph_sweep_chunk SPH_NAME(sweep_chunk_)

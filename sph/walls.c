@@ -85,8 +85,8 @@ void sph_force_walls(const sph_sim *sim, sph_thread *t, uint32_t h)
         }
     }
     for (int k = 0; k < SPH_DIM; k++)
-        t->sum[h][SUM_FORCE][k] += (sph_real)f[k];
-    t->sum[h][SUM_FORCE][SPH_DIM] += (sph_real)power;
+        t->sum[SUM_FORCE][h][k] += (sph_real)f[k];
+    t->sum[SUM_FORCE][h][SPH_DIM] += (sph_real)power;
 }
 
 /* ---- Adami's extrapolation: a sweep whose homes are wall particles ---- */
@@ -99,13 +99,12 @@ static bool adami_home(const sph_sim *sim, const sph_set *s)
     return s->role == SPH_ROLE_GHOST && s->kind == SPH_WALL_ADAMI;
 }
 
-static void adami_tile(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t role)
+static void adami_home_tile(const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_tile *f = &t->fluid;
     const bool ratio = sim->cfg.scheme == SPH_STANDARD || sim->cfg.scheme == SPH_STANDARD_WICK;
     const uint32_t kernel = sim->cfg.kernel;
     const vreal inv_h = v_set(sim->fac.inv_h);
-    (void)role;
     for (uint32_t j = 0; j < f->n; j += SPH_W) {
         const uint32_t l = j % SPH_LANES;
         vreal dx[SPH_DIM], r2 = v_set(0);
@@ -115,14 +114,21 @@ static void adami_tile(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t r
         }
         const vreal w = k_value(kernel, v_sqrt(r2) * inv_h), rho = v_load(f->rho + j);
         const vreal a = v_load(f->a + j), p = ratio ? a * rho * rho : a;
-        v_store(t->sum[h][SUM_W] + l, v_load(t->sum[h][SUM_W] + l) + w);
-        v_store(t->sum[h][SUM_PW] + l, v_load(t->sum[h][SUM_PW] + l) + p * w);
+        v_store(t->sum[SUM_W][h] + l, v_load(t->sum[SUM_W][h] + l) + w);
+        v_store(t->sum[SUM_PW][h] + l, v_load(t->sum[SUM_PW][h] + l) + p * w);
         for (int k = 0; k < SPH_DIM; k++) {
-            sph_real *r = t->sum[h][SUM_RW + k] + l, *u = t->sum[h][SUM_UW + k] + l;
+            sph_real *r = t->sum[SUM_RW + k][h] + l, *u = t->sum[SUM_UW + k][h] + l;
             v_store(r, v_load(r) + rho * dx[k] * w);
             v_store(u, v_load(u) + v_load(f->v[k] + j) * w);
         }
     }
+}
+
+static void adami_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    (void)role;
+    for (uint32_t h = 0; h < homes; h++)
+        adami_home_tile(sim, t, h);
 }
 
 static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -131,14 +137,14 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     const uint32_t i = t->home_at[h];
     const sph_set *set = &sim->set[t->home_set[h]];
     const sph_group_state *g = &sim->next.group[set->group], *before = &sim->now.group[set->group];
-    double w = (double)v_fold(t->sum[h][SUM_W]), p = (double)v_fold(t->sum[h][SUM_PW]);
+    double w = (double)v_fold(t->sum[SUM_W][h]), p = (double)v_fold(t->sum[SUM_PW][h]);
     const bool wet = w * (double)sim->fac.value * set->mass > 1e-6 * set->rho0;
     for (int k = 0; k < SPH_DIM; k++) {
         /* acceleration of the wall, by difference over the step */
         double a = sim->dt > 0 ? (g->vel[k] - before->vel[k]) / sim->dt : 0;
-        p += (sim->cfg.gravity[k] - a) * (double)v_fold(t->sum[h][SUM_RW + k]);
+        p += (sim->cfg.gravity[k] - a) * (double)v_fold(t->sum[SUM_RW + k][h]);
         if (set->no_slip)
-            b->vel[k][i] = (sph_real)(wet ? 2 * g->vel[k] - (double)v_fold(t->sum[h][SUM_UW + k]) / w : g->vel[k]);
+            b->vel[k][i] = (sph_real)(wet ? 2 * g->vel[k] - (double)v_fold(t->sum[SUM_UW + k][h]) / w : g->vel[k]);
     }
     p = wet ? p / w : 0;
     double d = sph_density_of(sim, set, sim->cfg.pressure_floor && p < 0 ? 0 : p);
@@ -148,7 +154,7 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {adami_home, 1u << SPH_ROLE_FLUID, false, adami_tile, adami_finish};
+    static const sph_sweep w = {adami_home, 1u << SPH_ROLE_FLUID, SUM_UW + SPH_DIM, false, adami_tile, adami_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool has_adami(const sph_sim *sim) { return sim->has_adami; }

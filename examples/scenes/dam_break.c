@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* dam_break.c: a column of water a wide and n^2 a high collapses in an open tank (Martin & Moyce 1952; Gray 2001
+   section 3.3). The gate is gone at once: by default the run starts with the pressure that incompressible water has at
+   that moment, zero at the top and at the freed face. History in their terms: T = n t sqrt(g/a), Z = front/a. */
+#include "scene.h"
+#if SPH_DIM == 2
+
+enum { A = SCENE_COMMON, N2, N, LENGTH, HEIGHT, GRAVITY, SOUND, START, PARAMS };
+
+static const scene_param param[PARAMS] = {
+    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 1),
+    {"a", "m", "width of the column", 0.0572, 1e-4, 1e4, SCENE_NUMBER},
+    {"n2", "-", "height of the column in widths", 1, 0.1, 10, SCENE_NUMBER},
+    {"n", "-", "particles across the column", 30, 4, 4000, SCENE_WHOLE},
+    {"length", "a", "length of the tank; 0: 6, or 14 for columns higher than wide", 0, 0, 100, SCENE_NUMBER},
+    {"height", "a", "height of the tank; 0: the column's and half as much again", 0, 0, 100, SCENE_NUMBER},
+    {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
+    {"sound", "sqrt(g H)", "sound speed, H the column's height", 14.142135623730951, 2, 1000, SCENE_NUMBER},
+    {"start", "-", "pressure at the start: uniform hydrostatic released", SCENE_RELEASED, 0, 2, SCENE_CHOICE},
+};
+
+static double spacing(const double *p) { return p[A] / p[N]; }
+static double sound(const double *p) { return p[SOUND] * __builtin_sqrt(p[GRAVITY] * p[N2] * p[A]); }
+/* sqrt(n2 g/a): what makes a time into T */
+static double rate(const double *p) { return __builtin_sqrt(p[N2] * p[GRAVITY] / p[A]); }
+
+static void tank(const double *p, double *hi)
+{
+    double length = p[LENGTH] > 0 ? p[LENGTH] : p[N2] > 1 ? 14 : 6;
+    double height = p[HEIGHT] > 0 ? p[HEIGHT] : 1.5 * p[N2];
+    hi[0] = (length < 1 ? 1 : length) * p[A];
+    hi[1] = (height < p[N2] ? p[N2] : height) * p[A];
+}
+
+static void configure(const double *p, sph_config *c)
+{
+    const double lo[2] = {0, 0}, column[2] = {p[A], p[N2] * p[A]}, dx = spacing(p), m = scene_margin(p, dx);
+    double hi[2];
+    tank(p, hi);
+    *c = scene_config(p, dx, 1000, sound(p));
+    c->gravity[1] = -p[GRAVITY];
+    c->lo[0] = c->lo[1] = -m;
+    c->hi[0] = hi[0] + m;
+    c->hi[1] = hi[1] + m;
+    c->max_particles = scene_capacity(scene_box_count(lo, column, dx) +
+                                      scene_wall_count(p, lo, hi, dx, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1)));
+}
+
+/* Pressure of the column at the moment of release: Laplace's equation in 0..a x 0..H with p = 0 at the top and at
+   x = a, dp/dx = 0 at x = 0 and dp/dy = -rho g at the floor; H - y in quarter waves, each carried inward by cosh. */
+#define TERMS 100
+static void released(void *ctx, const double *x, double *v, double *rho)
+{
+    const double *p = ctx, h = p[N2] * p[A];
+    double sum = 0;
+    (void)v;
+    for (int i = 0; i < TERMS; i++) {
+        double k = (i + 0.5) * SCENE_PI / h;
+        double inward = sph_exp(k * (x[0] - p[A])) * (1 + sph_exp(-2 * k * x[0])) / (1 + sph_exp(-2 * k * p[A]));
+        sum += 2 / (h * k * k) * sph_cos(k * x[1]) * inward;
+    }
+    double pressure = 1000 * p[GRAVITY] * (h - x[1] - sum);
+    *rho = scene_density(p, pressure > 0 ? pressure : 0, 1000, sound(p));
+}
+
+static sph_status build(sph_sim *sim, const double *p)
+{
+    const double lo[2] = {0, 0}, column[2] = {p[A], p[N2] * p[A]};
+    const sph_wall wall = scene_wall(p);
+    double hi[2], q[PARAMS];
+    uint32_t water;
+    sph_status st;
+    tank(p, hi);
+    for (int i = 0; i < PARAMS; i++)
+        q[i] = p[i]; /* the field's context is not const */
+    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, column, NULL)) != SPH_OK)
+        return st;
+    if (p[START] == SCENE_HYDROSTATIC)
+        st = sph_apply_hydrostatic(sim, water, column[1]);
+    else if (p[START] == SCENE_RELEASED)
+        st = sph_apply_field(sim, water, released, q);
+    return st ? st : sph_add_wall_box(sim, &wall, lo, hi, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1), true, NULL);
+}
+
+static double end(const double *p) { return (p[N2] > 1 ? 6 : 4) / rate(p); }
+
+static const char *const column[] = {"time_s",     "T_-",        "Z_-",         "closed_end_height_-", "kinetic_J/m",
+                                     "potential_J/m", "internal_J/m", "wall_work_J/m", "dissipated_J/m", "diffused_J/m",
+                                     "mass_kg/m",  "particles_-"};
+
+static void history(const sph_sim *sim, const double *p, double *row)
+{
+    sph_totals o;
+    /* a support off the closed end, where the gauge sees water on both sides of its line */
+    const double at[2] = {sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * spacing(p), 0};
+    double back, front, height = 0;
+    sph_get_totals(sim, &o);
+    sph_extent(sim, 0, &back, &front);
+    sph_gauge(sim, at, 1, &height);
+    const double values[] = {sph_time(sim), sph_time(sim) * rate(p), (front + 0.5 * spacing(p)) / p[A],
+                             height / (p[N2] * p[A]), o.kinetic, o.potential, o.internal, o.wall_work, o.dissipated,
+                             o.diffused, o.mass, o.fluid};
+    for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
+        row[i] = values[i];
+}
+
+#define scene_dam_break SPH_NAME(scene_dam_break)
+extern const scene scene_dam_break;
+const scene scene_dam_break = {"dam_break", "a column of water collapses in a tank (Martin & Moyce 1952)", param,
+                               PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+#endif

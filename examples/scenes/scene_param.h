@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* scene_param.h: how a scene describes one of its parameters. The same in all six builds. */
+#ifndef SCENE_PARAM_H
+#define SCENE_PARAM_H
+
+#include <stdint.h>
+
+enum { SCENE_NUMBER, SCENE_WHOLE, SCENE_CHOICE };
+
+/* Values are doubles, also of whole numbers and choices. A choice counts from 0 in the list of its names, which `what`
+   gives after a colon, apart by spaces ("smoothing kernel: cubic quartic ..."). */
+typedef struct scene_param {
+    const char *name, *unit, *what;
+    double value, min, max; /* default, and the range that is allowed, both ends included */
+    uint32_t kind;
+} scene_param;
+
+#endif

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* scenes.c: the table of scenes of each dimension, and what their set-ups share. */
+#include "scene.h"
+
+#if SPH_DIM == 1
+#define scene_hydrostatic SPH_NAME(scene_hydrostatic)
+extern const scene scene_hydrostatic;
+const scene *const scene_table[] = {&scene_hydrostatic, NULL};
+#elif SPH_DIM == 2
+#define scene_dam_break SPH_NAME(scene_dam_break)
+#define scene_still_tank SPH_NAME(scene_still_tank)
+#define scene_standing_wave SPH_NAME(scene_standing_wave)
+#define scene_taylor_green SPH_NAME(scene_taylor_green)
+#define scene_elliptical_drop SPH_NAME(scene_elliptical_drop)
+extern const scene scene_dam_break, scene_still_tank, scene_standing_wave, scene_taylor_green, scene_elliptical_drop;
+const scene *const scene_table[] = {&scene_dam_break,    &scene_still_tank,      &scene_standing_wave,
+                                    &scene_taylor_green, &scene_elliptical_drop, NULL};
+#else
+#define scene_dam_break_3d SPH_NAME(scene_dam_break_3d)
+extern const scene scene_dam_break_3d;
+const scene *const scene_table[] = {&scene_dam_break_3d, NULL};
+#endif
+
+sph_config scene_config(const double *p, double dx, double rho0, double sound_speed)
+{
+    sph_config c = sph_config_default();
+    c.spacing = dx;
+    c.smoothing_length = p[SCENE_H] * dx;
+    c.rho0 = rho0;
+    c.sound_speed = sound_speed;
+    c.kernel = (uint32_t)p[SCENE_KERNEL];
+    c.scheme = (uint32_t)p[SCENE_SCHEME];
+    c.density = (uint32_t)p[SCENE_DENSITY];
+    c.eos = (uint32_t)p[SCENE_EOS];
+    c.viscosity = (uint32_t)p[SCENE_VISCOSITY];
+    c.alpha = p[SCENE_ALPHA];
+    c.beta = p[SCENE_BETA];
+    c.nu = p[SCENE_NU];
+    c.diffusion = (uint32_t)p[SCENE_DIFFUSION];
+    c.delta = p[SCENE_DELTA];
+    c.xsph = p[SCENE_XSPH];
+    c.shepard_every = (uint32_t)p[SCENE_SHEPARD];
+    c.integrator = (uint32_t)p[SCENE_INTEGRATOR];
+    c.damping = p[SCENE_DAMPING];
+    c.dt = p[SCENE_DT];
+    c.cfl = p[SCENE_CFL];
+    c.books = p[SCENE_BOOKS] != 0;
+    c.on_leave = SPH_REMOVE;
+    c.on_cross = (uint32_t)p[SCENE_CROSS];
+    return c;
+}
+
+sph_wall scene_wall(const double *p)
+{
+    sph_wall w = sph_wall_default();
+    const uint32_t choice = (uint32_t)p[SCENE_WALL];
+    w.strength = p[SCENE_STRENGTH];
+    switch (choice) {
+    case SCENE_LENNARD_JONES: w.kind = SPH_WALL_LENNARD_JONES; break;
+    case SCENE_KERNEL_FORCE: w.kind = SPH_WALL_KERNEL_FORCE; break;
+    case SCENE_MONAGHAN_KOS: w.kind = SPH_WALL_MONAGHAN_KOS; break;
+    case SCENE_GHOST:
+    case SCENE_GHOST_COMPRESSIBLE: /* Gray's ghosts act in the viscosity, with mirror velocities */
+        w.kind = SPH_WALL_GHOST;
+        w.no_slip = true;
+        w.compressible = choice == SCENE_GHOST_COMPRESSIBLE;
+        break;
+    default: w.no_slip = choice == SCENE_ADAMI_NO_SLIP; break;
+    }
+    return w;
+}
+
+static bool has_layers(const double *p) { return p[SCENE_WALL] >= SCENE_GHOST; }
+
+/* layers that a wall of ghosts has, as many as the support needs */
+static double wall_layers(const double *p)
+{
+    double support = sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H];
+    return has_layers(p) ? (double)(uint32_t)(support + 0.999999) : 0;
+}
+
+double scene_margin(const double *p, double dx) { return (wall_layers(p) + 1) * dx; }
+
+static double intervals(double length, double dx)
+{
+    double n = length / dx + 0.5;
+    return n < 1 ? 1 : n < 1e9 ? (double)(uint32_t)n : 1e9;
+}
+
+double scene_box_count(const double *lo, const double *hi, double dx)
+{
+    double n = 1;
+    for (int k = 0; k < SPH_DIM; k++)
+        n *= intervals(hi[k] - lo[k], dx);
+    return n;
+}
+
+double scene_wall_count(const double *p, const double *lo, const double *hi, double dx, uint32_t faces)
+{
+    double outer = 1, inner = 1;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        double n = intervals(hi[k] - lo[k], dx), f = ((faces & SPH_LOW(k)) != 0) + ((faces & SPH_HIGH(k)) != 0);
+        /* layers stand around the box; rows take the nodes of its surface */
+        outer *= has_layers(p) ? n + f * wall_layers(p) : n + 1;
+        inner *= has_layers(p) ? n : n + 1 - f;
+    }
+    return outer - inner;
+}
+
+uint32_t scene_capacity(double n) { return n < 1 ? 1 : n > 1073741824.0 ? 1073741824u : (uint32_t)n; }
+
+double scene_density(const double *p, double pressure, double rho0, double sound_speed)
+{
+    double y = pressure / (rho0 * sound_speed * sound_speed);
+    switch ((uint32_t)p[SCENE_EOS]) {
+    case SPH_LINEAR: return rho0 * (1 + y);
+    case SPH_ISOTHERMAL: return rho0 * (1 + y); /* pressure is meant above the one at rest */
+    case SPH_TAIT_GRAY: return rho0 * sph_pow(1 + y, 1.0 / 7);
+    default: return rho0 * sph_pow(1 + 7 * y, 1.0 / 7);
+    }
+}
+
+sph_status scene_between(sph_sim *sim, const double *p, sph_config *cfg)
+{
+    sph_step_info info;
+    if (cfg->damping == 1 || p[SCENE_DAMP_STEPS] == 0)
+        return SPH_OK;
+    sph_get_step(sim, &info);
+    if ((double)info.step < p[SCENE_DAMP_STEPS])
+        return SPH_OK;
+    cfg->damping = 1;
+    return sph_reconfigure(sim, cfg);
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* standing_wave.c: a standing gravity wave of small amplitude, one wavelength long. Starts flat, with the velocities of
+   linear theory: eta = A sin(w t) cos(k (x - L/2)), w^2 = g k tanh(k d); viscosity damps it as exp(-2 nu k^2 t) (Lamb,
+   Hydrodynamics, section 348). */
+#include "scene.h"
+#if SPH_DIM == 2
+
+enum { DEPTH = SCENE_COMMON, WAVELENGTH, AMPLITUDE, N, RE, SIDES, GRAVITY, SOUND, PERIODS, PARAMS };
+enum { SIDES_PERIODIC, SIDES_SYMMETRY };
+
+static const scene_param param[PARAMS] = {
+    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_MORRIS, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 0),
+    {"depth", "m", "depth of the water", 1, 1e-4, 1e4, SCENE_NUMBER},
+    {"wavelength", "depth", "wavelength (rounded to whole spacings)", 2, 0.2, 100, SCENE_NUMBER},
+    {"amplitude", "depth", "amplitude of the surface", 0.02, 0, 0.5, SCENE_NUMBER},
+    {"n", "-", "particles in the depth", 40, 4, 4000, SCENE_WHOLE},
+    {"re", "-", "Reynolds number depth sqrt(g depth)/nu, unless nu is given", 500, 1e-3, 1e9, SCENE_NUMBER},
+    {"sides", "-", "ends of the tank: periodic symmetry", SIDES_PERIODIC, 0, 1, SCENE_CHOICE},
+    {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
+    {"sound", "sqrt(g H)", "sound speed, H the depth", 14.142135623730951, 2, 1000, SCENE_NUMBER},
+    {"periods", "-", "length of the run in periods", 5, 0, 1e6, SCENE_NUMBER},
+};
+
+static double spacing(const double *p) { return p[DEPTH] / p[N]; }
+
+/* the wave that p describes; m, s */
+typedef struct wave {
+    double length, depth, k, omega, amplitude, nu;
+} wave;
+static wave wave_of(const double *p)
+{
+    wave w;
+    uint32_t across = (uint32_t)(p[WAVELENGTH] * p[N] + 0.5);
+    w.depth = p[DEPTH];
+    w.length = (across > 1 ? across : 1) * spacing(p);
+    w.k = 2 * SCENE_PI / w.length;
+    w.omega = __builtin_sqrt(p[GRAVITY] * w.k * sph_tanh(w.k * w.depth));
+    w.amplitude = p[AMPLITUDE] * w.depth;
+    w.nu = p[SCENE_NU] > 0 ? p[SCENE_NU] : w.depth * __builtin_sqrt(p[GRAVITY] * w.depth) / p[RE];
+    return w;
+}
+
+static void configure(const double *p, sph_config *c)
+{
+    const wave w = wave_of(p);
+    const double dx = spacing(p), m = scene_margin(p, dx), lo[2] = {0, 0}, hi[2] = {w.length, w.depth};
+    *c = scene_config(p, dx, 1000, p[SOUND] * __builtin_sqrt(p[GRAVITY] * w.depth));
+    c->nu = w.nu;
+    c->gravity[1] = -p[GRAVITY];
+    c->lo[1] = -m;
+    c->hi[0] = w.length;
+    c->hi[1] = (1 + 2 * p[AMPLITUDE]) * w.depth + m;
+    c->face[0][0] = c->face[0][1] = p[SIDES] == SIDES_PERIODIC ? SPH_PERIODIC : SPH_SYMMETRY;
+    c->max_particles = scene_capacity(scene_box_count(lo, hi, dx) + scene_wall_count(p, lo, hi, dx, SPH_LOW(1)));
+}
+
+static void start(void *ctx, const double *x, double *v, double *rho)
+{
+    const wave *w = ctx;
+    (void)rho;
+    double up = sph_exp(w->k * x[1]), down = 1 / up, deep = sph_exp(w->k * w->depth);
+    double c = w->amplitude * w->omega / (deep - 1 / deep), phase = w->k * (x[0] - 0.5 * w->length);
+    v[0] = -c * (up + down) * sph_sin(phase);
+    v[1] = c * (up - down) * sph_cos(phase);
+}
+
+static sph_status build(sph_sim *sim, const double *p)
+{
+    wave w = wave_of(p);
+    const double lo[2] = {0, 0}, hi[2] = {w.length, w.depth};
+    const sph_wall wall = scene_wall(p);
+    uint32_t water;
+    sph_status st;
+    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, hi, NULL)) != SPH_OK ||
+        (st = sph_apply_hydrostatic(sim, water, w.depth)) != SPH_OK ||
+        (st = sph_apply_field(sim, water, start, &w)) != SPH_OK)
+        return st;
+    return sph_add_wall_box(sim, &wall, lo, hi, SPH_LOW(1), true, NULL);
+}
+
+static double end(const double *p) { return p[PERIODS] * 2 * SCENE_PI / wave_of(p).omega; }
+
+static const char *const column[] = {"time_s", "antinode_m", "mode_m", "mode_linear_m", "kinetic_J/m", "potential_J/m",
+                                     "dissipated_J/m"};
+
+static void history(const sph_sim *sim, const double *p, double *row)
+{
+    const wave w = wave_of(p);
+    const double middle[2] = {0.5 * w.length, 0}, t = sph_time(sim);
+    double height = 0, moment = 0;
+    sph_totals o;
+    sph_particle q;
+    sph_get_totals(sim, &o);
+    sph_gauge(sim, middle, 1, &height);
+    /* sum m cos = rho times the integral of (d + eta) cos: the mode's amplitude, without looking for a surface */
+    for (uint32_t i = 0; i < sph_count(sim); i++)
+        if (sph_get(sim, i, &q) == SPH_OK && q.role == SPH_ROLE_FLUID)
+            moment += q.mass * sph_cos(w.k * (q.x[0] - 0.5 * w.length));
+    row[0] = t;
+    row[1] = height - w.depth;
+    row[2] = o.mass > 0 ? 2 * w.depth * moment / o.mass : 0;
+    row[3] = w.amplitude * sph_sin(w.omega * t) * sph_exp(-2 * w.nu * w.k * w.k * t);
+    row[4] = o.kinetic;
+    row[5] = o.potential;
+    row[6] = o.dissipated;
+}
+
+#define scene_standing_wave SPH_NAME(scene_standing_wave)
+extern const scene scene_standing_wave;
+const scene scene_standing_wave = {"standing_wave", "a standing gravity wave of small amplitude, one wavelength", param,
+                                   PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+#endif
