@@ -33,6 +33,7 @@ enum {
     SCENE_DAMPING, SCENE_DAMP_STEPS, SCENE_DT, SCENE_CFL, SCENE_BOOKS,
     SCENE_COMMON
 };
+_Static_assert(SCENE_COMMON == SCENE_COMMON_COUNT, "scene_param.h must say how many common parameters there are");
 
 /* The first rows of a scene's parameter table, with the defaults in which scenes differ. */
 #define SCENE_COMMON_PARAMS(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_)   \

@@ -5,6 +5,8 @@
 
 #include <stdint.h>
 
+#define SCENE_COMMON_COUNT 22 /* parameters that every scene takes; they come first in its table */
+
 enum { SCENE_NUMBER, SCENE_WHOLE, SCENE_CHOICE };
 
 /* Values are doubles, also of whole numbers and choices. A choice counts from 0 in the list of its names, which `what`
