@@ -721,6 +721,18 @@ static bool read_all(stream *s, sph_sim *sim, uint32_t spare, run *r)
     return check_buffer(s, sim, &sim->buf[spare], sim->next.count);
 }
 
+/* what a refused dump left in the spare buffer: lanes behind a row's end may read it, so it must be finite */
+static void wipe(const sph_sim *sim, const sph_buffer *b)
+{
+    const size_t n = sim->cfg.max_particles;
+#define SPH_FIELD_WIPE(name, type, comps, unit, when)                                                       \
+    for (uint32_t k = 0; k < (comps); k++)                                                                  \
+        if (b->name[k])                                                                                     \
+            memset(b->name[k], 0, n * sizeof(type));
+    SPH_STATE_FIELDS(SPH_FIELD_WIPE)
+#undef SPH_FIELD_WIPE
+}
+
 sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx)
 {
     if (sim->begun)
@@ -734,8 +746,10 @@ sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx)
     memset(&r, 0, sizeof r);
     s.source = source;
     s.ctx = ctx;
-    if (!read_all(&s, sim, spare, &r))
+    if (!read_all(&s, sim, spare, &r)) {
+        wipe(sim, &sim->buf[spare]);
         return sph_error(sim, s.fail.status, s.fail.what, s.fail.allowed, s.fail.value, s.fail.particle);
+    }
     sim->cur = spare;
     sim->now = sim->next;
     sim->table_valid = false; /* the table of cells belongs to what was there before */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_diff.c: sph diff. Where two dumps, or two stage logs, begin to differ. Particles are matched by id, so the order of
-   the arrays does not matter; values are compared bit by bit. */
+/* cmd_diff.c: sph diff. Where two dumps, or two stage logs, begin to differ. Particles are matched by id, so the order
+   of the arrays does not matter; values are compared bit by bit. */
 #include "commands.h"
 #include "dumpfile.h"
 #include "host.h"
@@ -117,7 +117,8 @@ static int compare_sections(const dump_file *a, const dump_file *b, const id_at 
         const dump_section *s = &a->section[k], *o = dump_find(b, s->name);
         if (!strcmp(s->name, "end"))
             continue;
-        if (!o || (o->type == DUMP_RECORD) != (s->type == DUMP_RECORD) || (o->comps != s->comps && o->type != DUMP_RECORD)) {
+        if (!o || (o->type == DUMP_RECORD) != (s->type == DUMP_RECORD) ||
+            (o->comps != s->comps && o->type != DUMP_RECORD)) {
             printf("%s: only in the first, or of another shape\n", s->name);
             differ = 1;
         } else if (s->type == DUMP_RECORD)
@@ -215,8 +216,8 @@ static int diff_logs(char *a, char *b, const char *name_a, const char *name_b)
             return HOST_NO;
         }
         if (x.step != y.step || strcmp(x.pass, y.pass) || strcmp(x.hash, y.hash)) {
-            printf("stage %llu differs: step %llu, %s, %s; step %llu, %s, %s\n", lines + 1, x.step, x.pass, x.hash, y.step,
-                   y.pass, y.hash);
+            printf("stage %llu differs: step %llu, %s, %s; step %llu, %s, %s\n", lines + 1, x.step, x.pass, x.hash,
+                   y.step, y.pass, y.hash);
             return HOST_NO;
         }
     }

@@ -123,7 +123,8 @@ static double index_value(const table *t, size_t what, uint32_t i, uint32_t k)
 }
 
 /* a DataArray element, or in the second round its bytes; both rounds call this in the same order */
-static void put_array(vtu *v, const table *t, const char *name, const char *type, uint32_t comps, value_fn fn, size_t what)
+static void put_array(vtu *v, const table *t, const char *name, const char *type, uint32_t comps, value_fn fn,
+                      size_t what)
 {
     const uint64_t bytes = (uint64_t)t->n * comps * type_bytes(type);
     if (!v->appending) {
@@ -171,10 +172,11 @@ static bool write_vtu(const table *t, const char *name, bool ascii)
     if (!host_create(&h, name))
         return false;
     vtu v = {h.f, ascii, 0, false};
-    fprintf(h.f, "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                 "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
-                 "NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n</FieldData>\n"
-                 "<Piece NumberOfPoints=\"%u\" NumberOfCells=\"%u\">\n",
+    fprintf(h.f,
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+            "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
+            "NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n</FieldData>\n"
+            "<Piece NumberOfPoints=\"%u\" NumberOfCells=\"%u\">\n",
             t->d->time, t->n, t->n);
     put_piece(&v, t);
     fputs("</Piece>\n</UnstructuredGrid>\n", h.f);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_history.c: sph history. Reads the CSV files of `sph run`: checks and summarises them, chooses and converts columns,
-   overlays several runs and measured points in a plot (by gnuplot). */
+/* cmd_history.c: sph history. Reads the CSV files of `sph run`: checks and summarises them, chooses and converts
+   columns, overlays several runs and measured points in a plot (by gnuplot). */
 #define _POSIX_C_SOURCE 200809L
 #include "commands.h"
 #include "host.h"
@@ -12,8 +12,8 @@
 
 static const char help[] =
     "usage: sph history FILE.csv... [columns=LIST] [out=NAME.csv] [plot=NAME.png] [reference=FILE.csv] [size=WxH]\n"
-    "Without out= and plot=: checks each file (rows complete, numbers finite, first column increasing) and prints for each\n"
-    "column its first, last, smallest and largest value.\n"
+    "Without out= and plot=: checks each file (rows complete, numbers finite, first column increasing) and\n"
+    "prints for each column its first, last, smallest and largest value.\n"
     "  columns=       chosen columns, separated by commas (default: all). NAME, or NAME*FACTOR, NAME+OFFSET,\n"
     "                 NAME*FACTOR+OFFSET, each may be followed by :NEWNAME, e.g. columns=time_s*13.1:T,front_m*17.5:Z\n"
     "  out=NAME.csv   the chosen columns of one file as CSV\n"
@@ -32,7 +32,10 @@ typedef struct history {
     double *value; /* row by row */
 } history;
 
-static double at(const history *h, uint32_t row, uint32_t column) { return h->value[(size_t)row * h->columns + column]; }
+static double at(const history *h, uint32_t row, uint32_t column)
+{
+    return h->value[(size_t)row * h->columns + column];
+}
 
 /* ---- reading ---- */
 
@@ -210,7 +213,10 @@ static uint32_t choose(const history *h, const char *list, pick *p)
     return n;
 }
 
-static double picked(const history *h, uint32_t row, const pick *p) { return at(h, row, p->column) * p->factor + p->offset; }
+static double picked(const history *h, uint32_t row, const pick *p)
+{
+    return at(h, row, p->column) * p->factor + p->offset;
+}
 
 /* ---- check and summary ---- */
 
@@ -245,8 +251,8 @@ static bool summarise(const history *h, const char *list)
             low = fmin(low, picked(h, i, &p[k]));
             high = fmax(high, picked(h, i, &p[k]));
         }
-        printf("  %-28s %14.7g %14.7g %14.7g %14.7g\n", p[k].name, picked(h, 0, &p[k]), picked(h, h->rows - 1, &p[k]), low,
-               high);
+        printf("  %-28s %14.7g %14.7g %14.7g %14.7g\n", p[k].name, picked(h, 0, &p[k]), picked(h, h->rows - 1, &p[k]),
+               low, high);
     }
     return true;
 }
@@ -339,7 +345,8 @@ static void put_script(FILE *g, const curves *c, uint32_t files, uint32_t refs, 
     for (uint32_t k = 0; k < files + refs; k++)
         put_block(g, "data", k, &c[k].h, c[k].p, c[k].n);
     for (uint32_t k = 0; k < files + refs; k++)
-        put_curves(g, "data", k, &c[k].h, c[k].p, c[k].n, k < files ? "lines linewidth 2" : "points pointtype 7", &first);
+        put_curves(g, "data", k, &c[k].h, c[k].p, c[k].n, k < files ? "lines linewidth 2" : "points pointtype 7",
+                   &first);
     fputs("\n", g);
 }
 
@@ -365,7 +372,8 @@ static int run_gnuplot(const curves *c, uint32_t files, uint32_t refs, const cha
     return result;
 }
 
-static int plot(char **files, uint32_t n, const char *list, const char *reference, const char *out, int width, int height)
+static int plot(char **files, uint32_t n, const char *list, const char *reference, const char *out, int width,
+                int height)
 {
     curves *c = host_alloc((n + 1) * sizeof *c);
     uint32_t read = 0, all = n + (reference != NULL);

@@ -8,8 +8,8 @@
 
 static const char help[] =
     "usage: sph info DUMP...\n"
-    "Prints what a dump holds: the records (scene, sets, groups, run, state) field by field with units, then its arrays with\n"
-    "type, unit, count and range. Every checksum is verified on the way.\n";
+    "Prints what a dump holds: the records (scene, sets, groups, run, state) field by field with units, then its\n"
+    "arrays with type, unit, count and range. Every checksum is verified on the way.\n";
 
 static void print_value(const dump_section *s, const dump_member *m, uint64_t row)
 {

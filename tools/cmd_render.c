@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_render.c: sph render. Dumps as pictures: particles coloured by a field in 2-D, a slice or a projection of 3-D, a plot of
-   the field against x in 1-D. Every picture carries its time, axes with units and a colour bar. */
+/* cmd_render.c: sph render. Dumps as pictures: particles coloured by a field in 2-D, a slice or a projection of 3-D, a
+   plot of the field against x in 1-D. Every picture carries its time, axes with units and a colour bar. */
 #include "commands.h"
 #include "dumpfile.h"
 #include "host.h"

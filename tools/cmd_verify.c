@@ -6,8 +6,9 @@
 
 static const char help[] =
     "usage: sph verify DUMP...\n"
-    "Checks dumps: magic, version, the checksum of every section and of the whole, sizes, ids once each, finite values,\n"
-    "positions inside the domain. Prints a line for each file. Exit code 0: all are sound, 1: one is not, 2: wrong usage.\n";
+    "Checks dumps: magic, version, the checksum of every section and of the whole, sizes, ids once each, finite\n"
+    "values, positions inside the domain. Prints a line for each file. Exit code 0: all are sound, 1: one is not,\n"
+    "2: wrong usage.\n";
 
 int cmd_verify(int argc, char **argv)
 {
@@ -28,8 +29,9 @@ int cmd_verify(int argc, char **argv)
             continue;
         }
         if (dump_check(&d))
-            printf("%s: fine, %s dump, %u-D %s, %u particles, step %llu, t = %.9g s\n", argv[i], d.full ? "full" : "reduced",
-                   d.dim, d.real_bytes == 8 ? "double" : "float", d.n, (unsigned long long)d.step, d.time);
+            printf("%s: fine, %s dump, %u-D %s, %u particles, step %llu, t = %.9g s\n", argv[i],
+                   d.full ? "full" : "reduced", d.dim, d.real_bytes == 8 ? "double" : "float", d.n,
+                   (unsigned long long)d.step, d.time);
         else
             result = HOST_NO;
         dump_close(&d);

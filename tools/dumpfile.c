@@ -81,7 +81,8 @@ static bool read_preamble(dump_file *d)
         host_no("%s: the dump has version %u, this program reads version %u", d->name, d->version, VERSION);
         return false;
     }
-    if (d->dim < 1 || d->dim > 3 || (d->real_bytes != 4 && d->real_bytes != 8) || d->pos_bytes != d->real_bytes || p[15] > 1)
+    if (d->dim < 1 || d->dim > 3 || (d->real_bytes != 4 && d->real_bytes != 8) || d->pos_bytes != d->real_bytes ||
+        p[15] > 1)
         return refuse(d, "the dump is corrupt", "impossible preamble");
     if (number(p + 16, 8) > d->size)
         return refuse(d, "the dump ends too early", "it is shorter than its preamble says");
@@ -278,7 +279,10 @@ static double as_double(uint32_t type, uint64_t u)
     default: return (double)u;
     }
 }
-double dump_value(const dump_section *s, uint32_t comp, uint64_t i) { return as_double(s->type, dump_bits(s, comp, i)); }
+double dump_value(const dump_section *s, uint32_t comp, uint64_t i)
+{
+    return as_double(s->type, dump_bits(s, comp, i));
+}
 
 bool dump_get_member(const dump_section *record, uint32_t f, dump_member *m)
 {
@@ -344,8 +348,9 @@ typedef struct set_constants {
 static void get_sets(const dump_file *d, set_constants *c)
 {
     for (uint32_t s = 0; s < d->sets && s < 256; s++)
-        c[s] = (set_constants){small(dump_number(d, "sets", "role", s, 0)), small(dump_number(d, "sets", "group", s, 0)),
-                               dump_number(d, "sets", "rho0", s, 0), dump_number(d, "sets", "pressure_scale", s, 0)};
+        c[s] =
+            (set_constants){small(dump_number(d, "sets", "role", s, 0)), small(dump_number(d, "sets", "group", s, 0)),
+                            dump_number(d, "sets", "rho0", s, 0), dump_number(d, "sets", "pressure_scale", s, 0)};
 }
 
 /* equations of state by their number in sph.h: 2 linear, 3 isothermal, else Tait's */

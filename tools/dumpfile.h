@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* dumpfile.h: a dump of any dimension and precision, read into memory and checked (layout: sph/dump.c). It shares no code
-   with the kernel, so it is a second reading of the format. */
+/* dumpfile.h: a dump of any dimension and precision, read into memory and checked (layout: sph/dump.c). It shares no
+   code with the kernel, so it is a second reading of the format. */
 #ifndef DUMPFILE_H
 #define DUMPFILE_H
 
@@ -65,8 +65,8 @@ uint32_t dump_id(const dump_file *d, uint32_t i);
 uint32_t dump_role(const dump_file *d, uint32_t i);
 double dump_x(const dump_file *d, uint32_t i, uint32_t axis); /* m */
 
-/* Fields by name: x y z, velocity_x.., speed, density, pressure, acceleration_x.., set, id. Fills out[0..n) and the unit;
-   false after a message if the dump does not carry it. dump_has_field asks without a message. */
+/* Fields by name: x y z, velocity_x.., speed, density, pressure, acceleration_x.., set, id. Fills out[0..n) and the
+   unit; false after a message if the dump does not carry it. dump_has_field asks without a message. */
 #define DUMP_FIELDS "x y z velocity_x velocity_y velocity_z speed density pressure acceleration_x.. set id"
 bool dump_field(const dump_file *d, const char *field, double *out, const char **unit);
 bool dump_has_field(const dump_file *d, const char *field);

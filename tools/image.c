@@ -72,7 +72,8 @@ void image_line(image *m, double x0, double y0, double x1, double y1, colour c)
     }
 }
 
-/* ---- text: nine rows of five bits, from the top; a row is one digit of base 32 (0-9, A-V); missing rows are empty ---- */
+/* ---- text: nine rows of five bits, from the top; a row is one digit of base 32 (0-9, A-V); missing rows are empty
+ * ---- */
 
 static const struct {
     char c;
@@ -127,8 +128,10 @@ colour image_map(double s)
 {
     const double pi = 3.14159265358979323846;
     s = s > 0 ? s < 1 ? s : 1 : 0;
-    /* violet (hue 300 degrees) through blue and green to yellow (hue 105); chroma stays inside what a screen can show */
-    const double light = 0.25 + 0.67 * s, hue = (300 - 195 * s) * pi / 180, u = 2 * s - 1, chroma = 0.085 + 0.045 * u * u;
+    /* violet (hue 300 degrees) through blue and green to yellow (hue 105); chroma stays inside what a screen can show
+     */
+    const double light = 0.25 + 0.67 * s, hue = (300 - 195 * s) * pi / 180, u = 2 * s - 1,
+                 chroma = 0.085 + 0.045 * u * u;
     const double a = chroma * cos(hue), b = chroma * sin(hue);
     const double l = light + 0.3963377774 * a + 0.2158037573 * b, m = light - 0.1055613458 * a - 0.0638541728 * b;
     const double n = light - 0.0894841775 * a - 1.2914855480 * b, l3 = l * l * l, m3 = m * m * m, n3 = n * n * n;

@@ -24,7 +24,8 @@ void image_rect(image *m, int x, int y, int width, int height, colour c);
 void image_disc(image *m, double x, double y, double radius, colour c);
 void image_line(image *m, double x0, double y0, double x1, double y1, colour c);
 
-/* Text in the own 5 x 7 font, enlarged `scale` times; x, y: top left corner. ASCII; what the font lacks is left blank. */
+/* Text in the own 5 x 7 font, enlarged `scale` times; x, y: top left corner. ASCII; what the font lacks is left blank.
+ */
 void image_text(image *m, int x, int y, int scale, const char *text, colour c);
 int image_text_width(const char *text, int scale);
 int image_text_height(int scale);
