@@ -44,9 +44,10 @@ void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bo
 #define sph_pass_shepard SPH_NAME(pass_shepard_)
 #define sph_pass_copy_density SPH_NAME(pass_copy_density_)
 #define sph_pass_adami SPH_NAME(pass_adami_)
+#define sph_pass_adami_copy SPH_NAME(pass_adami_copy_)
 #define sph_pass_count SPH_NAME(pass_count_)
 #define sph_pass_scatter SPH_NAME(pass_scatter_)
 extern const sph_pass sph_pass_force, sph_pass_summation, sph_pass_shepard, sph_pass_copy_density, sph_pass_adami,
-    sph_pass_count, sph_pass_scatter;
+    sph_pass_adami_copy,    sph_pass_count, sph_pass_scatter;
 
 #endif

@@ -25,7 +25,7 @@
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
 
 /* Positions are integers, counted in quanta from the domain's low corner. One quantum is a power of two (m) such
-   that the longest axis has at most 2^30 (float) or 2^52 (double) of them: equally fine everywhere, exact to
+   that the longest axis has less than 2^30 (float) or 2^52 (double) of them: equally fine everywhere, exact to
    subtract, and 2^6 times finer than a float at the far end of the domain. */
 typedef sph_int sph_pos;
 #define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
@@ -126,6 +126,7 @@ struct sph_sim {
     uint32_t cell_mul[SPH_DIM]; /* cell index = (position * mul) >> 32 after a shift */
     uint32_t pos_shift;
     double support;
+    double courant; /* cfl, or less where the integrator does not stand it */
     sph_factors fac;
     /* arrays */
     sph_buffer buf[3];

@@ -156,9 +156,9 @@ static sph_status make_grid(sph_sim *s, sph_report *r)
     if (!(longest < 1e6 * s->support))
         return refuse(r, "hi", "at most 1e6 supports of the kernel from lo", longest);
     double quantum = 1;
-    while (quantum * (double)((sph_pos)1 << SPH_POS_BITS) < longest)
+    while (quantum * (double)((sph_pos)1 << SPH_POS_BITS) <= longest * 1.000001)
         quantum *= 2;
-    while (quantum * (double)((sph_pos)1 << (SPH_POS_BITS - 1)) >= longest)
+    while (quantum * (double)((sph_pos)1 << (SPH_POS_BITS - 1)) > longest * 1.000001)
         quantum /= 2;
     s->quantum = quantum;
     s->pos_shift = SPH_POS_BITS - 30;

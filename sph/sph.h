@@ -216,7 +216,8 @@ typedef struct sph_config {
     /* time */
     uint32_t integrator;
     double dt;              /* fixed step (s); 0: controlled by the limits below */
-    double cfl;             /* Courant factor on h/(c0 + h max|mu|) (Wickramarachchi 3.88) */
+    double cfl;             /* Courant factor on h/(c0 + h max|mu|) (Wickramarachchi 3.88); the predictor-corrector takes
+                               less, down to 0.05, where viscosity and diffusion are too weak for it (fluid.c) */
     double viscous_factor;  /* on h^2/nu_effective */
     double force_factor;    /* on sqrt(h/max|a|) (3.89) */
     double gravity_factor;  /* on h/(c0 + sqrt(g h)) (Gray 2.30) */

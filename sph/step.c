@@ -309,7 +309,7 @@ static const sph_pass pass_rk = {"advance", sph_local_chunks, rk_chunk, add_book
 
 #define SORT &sph_pass_count, &sph_pass_scatter
 #define FILTER &sph_pass_shepard, &sph_pass_summation, &sph_pass_copy_density
-#define FORCES &sph_pass_adami, &sph_pass_force
+#define FORCES &sph_pass_adami, &sph_pass_adami_copy, &sph_pass_force
 static const sph_pass *const prime_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_prime, NULL};
 static const sph_pass *const pc_program[] = {&pass_begin_pc, SORT, FILTER, FORCES, &pass_correct_pc, NULL};
 static const sph_pass *const kdk_program[] = {&pass_begin_kdk, SORT, FORCES, &pass_leap_density, FILTER,
@@ -344,7 +344,7 @@ static void find_limits(const sph_sim *sim, double *l)
     l[SPH_LIMIT_FIXED] = c->dt;
     if (c->dt > 0)
         return;
-    l[SPH_LIMIT_COURANT] = c->cfl * h / (c0 + h * (double)sim->now.peaks.mu);
+    l[SPH_LIMIT_COURANT] = sim->courant * h / (c0 + h * (double)sim->now.peaks.mu);
     if (nu > 0)
         l[SPH_LIMIT_VISCOUS] = c->viscous_factor * h * h / nu;
     if (a > 0)

@@ -131,6 +131,7 @@ static void adami_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
         adami_home_tile(sim, t, h);
 }
 
+/* Results wait in drho and acc, which are free until the forces: other chunks may be reading the densities. */
 static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
@@ -143,13 +144,12 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
         /* acceleration of the wall, by difference over the step */
         double a = sim->dt > 0 ? (g->vel[k] - before->vel[k]) / sim->dt : 0;
         p += (sim->cfg.gravity[k] - a) * (double)v_fold(t->sum[SUM_RW + k][h]);
-        if (set->no_slip)
-            b->vel[k][i] = (sph_real)(wet ? 2 * g->vel[k] - (double)v_fold(t->sum[SUM_UW + k][h]) / w : g->vel[k]);
+        b->acc[k][i] = (sph_real)(wet ? 2 * g->vel[k] - (double)v_fold(t->sum[SUM_UW + k][h]) / w : g->vel[k]);
     }
     p = wet ? p / w : 0;
-    double d = sph_density_of(sim, set, sim->cfg.pressure_floor && p < 0 ? 0 : p);
+    double d = wet ? sph_density_of(sim, set, sim->cfg.pressure_floor && p < 0 ? 0 : p) : 0;
     /* a wall that would be denser than any water can be: the fluid has collapsed onto it */
-    b->rho[0][i] = (sph_real)(d > 1 ? 1 : d < -0.5 ? -0.5 : d);
+    b->drho[0][i] = (sph_real)(d > 1 ? 1 : d < -0.5 ? -0.5 : d);
 }
 
 static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
@@ -157,8 +157,23 @@ static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     static const sph_sweep w = {adami_home, 1u << SPH_ROLE_FLUID, SUM_UW + SPH_DIM, false, adami_tile, adami_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
+static void adami_copy_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    uint32_t i = chunk * SPH_LOCAL_CHUNK, last = i + SPH_LOCAL_CHUNK < sim->next.count ? i + SPH_LOCAL_CHUNK : sim->next.count;
+    t->work += last - i;
+    for (uint32_t e; i < last; i = e) {
+        e = sph_run_end(b->set[0], i, last);
+        if (b->set[0][i] == SPH_DEAD || !adami_home(sim, &sim->set[b->set[0][i]]))
+            continue;
+        memcpy(b->rho[0] + i, b->drho[0] + i, (e - i) * sizeof(sph_real));
+        for (uint32_t k = 0; k < SPH_DIM && sim->set[b->set[0][i]].no_slip; k++)
+            memcpy(b->vel[k] + i, b->acc[k] + i, (e - i) * sizeof(sph_real));
+    }
+}
 static bool has_adami(const sph_sim *sim) { return sim->has_adami; }
 const sph_pass sph_pass_adami = {"adami walls", sph_sweep_chunks, adami_chunk, NULL, has_adami};
+const sph_pass sph_pass_adami_copy = {"adami copy", sph_local_chunks, adami_copy_chunk, NULL, has_adami};
 
 /* ---- walls that move or vanish ---- */
 
