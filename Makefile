@@ -57,6 +57,9 @@ endif
 
 # ---- sources ----
 
+# parts of the tests that need a source file
+HOST_CFLAGS += $(if $(wildcard sph/dump.c),-DHAVE_DUMP=1) $(if $(wildcard port/posix.h),-DHAVE_PORT_POSIX=1)
+
 BUILDS := 1f 1d 2f 2d 3f 3d
 dim = $(patsubst %d,%,$(patsubst %f,%,$(1)))
 double = $(if $(filter %d,$(1)),1,0)
@@ -76,7 +79,7 @@ build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all demo test bits bench size validate coverage lint help clean tests
+.PHONY: all demo test golden bits bench size validate coverage lint help clean tests
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
@@ -150,12 +153,18 @@ test:
 	$(Q)CC="$(CC)" sh tests/need_cmocka.sh
 	$(Q)$(MAKE) --no-print-directory tests
 	$(Q)EXEC="$(EXEC)" sh tests/run.sh $(BUILD) $(test_bins)
-	$(Q)BUILD=$(BUILD) sh tests/bits.sh --quick
+	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/bits.sh --quick
 
 tests: $(test_bins)
 
+# the golden runs in one program, for tests/bits.sh
+golden: $(BUILD)/golden
+$(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/tests/golden.o) $(LIBS)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+
 bits:
-	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" sh tests/bits.sh
+	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
 
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* cases.h: small scenes that between them take every choice of the configuration, for the golden runs and the tests of
+   same bits. A tank of jittered water with random velocities; each case changes one thing or a few. No libc, so that it
+   also runs on bare metal. */
+#ifndef SPH_TEST_CASES_H
+#define SPH_TEST_CASES_H
+
+#include "sph/dmath.h"
+#include "sph/sph.h"
+
+enum { CASE_NO_WALL = SPH_WALLS };
+
+/* 0 means the default of sph_config_default throughout */
+typedef struct bits_case {
+    const char *name;
+    uint32_t kernel, scheme, density, eos, viscosity, diffusion, integrator, wall, face;
+    bool xsph, shepard, books, moving, gate, body, floor, slip_less, compressible, damped, fixed_dt;
+} bits_case;
+
+#define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
+static const bits_case bits_cases[] = {
+    {"base", CASE_BASE},
+    {"kernel_cubic", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI},
+    {"kernel_quartic", .kernel = SPH_QUARTIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI},
+    {"kernel_quintic", .kernel = SPH_QUINTIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .xsph = true},
+    {"kernel_gaussian", .kernel = SPH_GAUSSIAN, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .shepard = true},
+    {"kernel_wendland_c4", .kernel = SPH_WENDLAND_C4, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI, .xsph = true},
+    {"kernel_hat", .kernel = SPH_HAT, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI},
+    {"scheme_weak", CASE_BASE, .scheme = SPH_WEAK},
+    {"scheme_direct", CASE_BASE, .scheme = SPH_DIRECT},
+    /* the printed continuity weights divide by p_i, so they need a pressure that stays away from 0 */
+    {"scheme_standard_wick", CASE_BASE, .scheme = SPH_STANDARD_WICK, .eos = SPH_ISOTHERMAL},
+    {"scheme_weak_wick", CASE_BASE, .scheme = SPH_WEAK_WICK, .eos = SPH_ISOTHERMAL},
+    {"density_summation", CASE_BASE, .density = SPH_SUMMATION},
+    {"eos_tait_gray", CASE_BASE, .eos = SPH_TAIT_GRAY},
+    {"eos_linear", CASE_BASE, .eos = SPH_LINEAR},
+    {"eos_isothermal", CASE_BASE, .eos = SPH_ISOTHERMAL},
+    {"pressure_floor", CASE_BASE, .floor = true},
+    {"inviscid", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_INVISCID, .wall = SPH_WALL_ADAMI},
+    {"viscosity_approaching", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL_APPROACHING, .wall = SPH_WALL_ADAMI},
+    {"viscosity_morris", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_MORRIS, .wall = SPH_WALL_ADAMI, .slip_less = true},
+    {"morris_ghost", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .slip_less = true,
+     .books = true},
+    {"diffusion_molteni", CASE_BASE, .diffusion = SPH_MOLTENI},
+    {"diffusion_hydrostatic", CASE_BASE, .diffusion = SPH_HYDROSTATIC},
+    {"diffusion_weak", CASE_BASE, .diffusion = SPH_MOLTENI, .scheme = SPH_WEAK, .books = true},
+    {"kick_drift_kick", CASE_BASE, .integrator = SPH_KICK_DRIFT_KICK},
+    {"leap_frog", CASE_BASE, .integrator = SPH_LEAP_FROG},
+    {"leap_frog_summation", CASE_BASE, .integrator = SPH_LEAP_FROG, .density = SPH_SUMMATION},
+    {"runge_kutta", CASE_BASE, .integrator = SPH_RUNGE_KUTTA},
+    {"runge_kutta_momentum", CASE_BASE, .integrator = SPH_RUNGE_KUTTA_MOMENTUM, .xsph = true, .books = true},
+    {"wall_lennard_jones", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_LENNARD_JONES},
+    {"wall_kernel_force", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_KERNEL_FORCE},
+    {"wall_monaghan_kos", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_MONAGHAN_KOS,
+     .books = true},
+    {"wall_ghost", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST},
+    {"wall_ghost_compressible", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST,
+     .compressible = true, .slip_less = true},
+    {"wall_adami_no_slip", CASE_BASE, .slip_less = true},
+    {"no_wall", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = CASE_NO_WALL},
+    {"face_periodic", CASE_BASE, .face = SPH_PERIODIC},
+    {"face_symmetry", CASE_BASE, .face = SPH_SYMMETRY},
+    {"face_mirror_no_slip", CASE_BASE, .face = SPH_MIRROR_NO_SLIP, .integrator = SPH_RUNGE_KUTTA},
+    {"xsph", CASE_BASE, .xsph = true},
+    {"shepard", CASE_BASE, .shepard = true},
+    {"books", CASE_BASE, .books = true},
+    {"moving_wall", CASE_BASE, .moving = true, .books = true},
+    {"moving_ghost", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .moving = true,
+     .integrator = SPH_RUNGE_KUTTA},
+    {"gate", CASE_BASE, .gate = true},
+    {"body_force", CASE_BASE, .body = true, .books = true},
+    {"damped", CASE_BASE, .damped = true},
+    {"fixed_dt", CASE_BASE, .fixed_dt = true, .integrator = SPH_KICK_DRIFT_KICK},
+};
+enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
+
+#define CASE_N (SPH_DIM == 1 ? 400 : SPH_DIM == 2 ? 40 : 8) /* particles along an edge: enough for several chunks */
+#define CASE_STEPS (SPH_DIM == 3 ? 6u : 12u)
+#define CASE_DX 0.1
+/* enough for any case: asserted by the runners through the status of sph_init */
+#define CASE_ARENA_BYTES (SPH_DIM == 3 ? 2u << 20 : 1u << 20)
+
+static void case_motion(void *ctx, double t, double *x, double *v)
+{
+    (void)ctx;
+    x[0] = 0.02 * CASE_DX * sph_sin(80 * t);
+    v[0] = 0.02 * CASE_DX * 80 * sph_cos(80 * t);
+}
+
+static void case_body(void *ctx, double t, const double *x, const double *v, double *a)
+{
+    (void)ctx;
+    for (int k = 0; k < SPH_DIM; k++)
+        a[k] += sph_sin(x[k] + t) - 0.1 * v[k];
+}
+
+static sph_config case_config(const bits_case *b)
+{
+    sph_config c = sph_config_default();
+    const double edge = CASE_N * CASE_DX;
+    c.spacing = CASE_DX;
+    c.smoothing_length = 1.2 * CASE_DX;
+    c.sound_speed = 20;
+    c.kernel = b->kernel;
+    c.scheme = b->scheme;
+    c.density = b->density;
+    c.eos = b->eos;
+    c.viscosity = b->viscosity;
+    c.nu = 0.01;
+    c.alpha = 0.05;
+    c.beta = 0.1;
+    c.diffusion = b->diffusion;
+    c.integrator = b->integrator;
+    c.xsph = b->xsph ? 0.5 : 0;
+    c.shepard_every = b->shepard ? 3 : 0;
+    c.books = b->books;
+    c.pressure_floor = b->floor;
+    c.damping = b->damped ? 0.99 : 1;
+    c.dt = b->fixed_dt ? 0.5e-3 : 0;
+    c.on_leave = SPH_REMOVE;
+    c.on_cross = SPH_PUT_BACK;
+    if (b->body)
+        c.body_force = case_body;
+    for (int k = 0; k < SPH_DIM; k++) {
+        c.lo[k] = -6 * CASE_DX;
+        c.hi[k] = edge + 9 * CASE_DX;
+    }
+    c.gravity[SPH_DIM - 1] = -9.81;
+    if (b->face != SPH_OPEN) {
+        c.lo[0] = 0;
+        c.hi[0] = edge;
+        c.face[0][0] = c.face[0][1] = b->face;
+        if (SPH_DIM == 1)
+            c.gravity[0] = 0;
+    }
+    c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
+    return c;
+}
+
+/* the water: a lattice jittered by up to a tenth of a spacing, speeds up to half a metre a second */
+static sph_status case_water(sph_sim *sim, uint32_t set)
+{
+    sph_rng rng;
+    sph_rng_seed(&rng, 2024, 7);
+    uint32_t n[3] = {CASE_N, SPH_DIM > 1 ? CASE_N : 1, SPH_DIM > 2 ? CASE_N : 1}, i[3];
+    for (i[2] = 0; i[2] < n[2]; i[2]++)
+        for (i[1] = 0; i[1] < n[1]; i[1]++)
+            for (i[0] = 0; i[0] < n[0]; i[0]++) {
+                double x[SPH_DIM], v[SPH_DIM];
+                for (int k = 0; k < SPH_DIM; k++) {
+                    x[k] = (i[k] + 0.4 + 0.2 * sph_rng_uniform(&rng)) * CASE_DX;
+                    v[k] = sph_rng_uniform(&rng) - 0.5;
+                }
+                sph_status st = sph_add_particle(sim, set, x, v, 990 + 20 * sph_rng_uniform(&rng), NULL);
+                if (st)
+                    return st;
+            }
+    return SPH_OK;
+}
+
+static sph_status case_walls(sph_sim *sim, const bits_case *b)
+{
+    sph_wall w = sph_wall_default();
+    double lo[SPH_DIM], hi[SPH_DIM];
+    uint32_t faces = 0, group;
+    w.kind = b->wall;
+    w.no_slip = b->slip_less;
+    w.compressible = b->compressible;
+    w.strength = b->wall == SPH_WALL_LENNARD_JONES ? 0.02 : 0;
+    if (b->moving)
+        w.motion = case_motion;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        lo[k] = 0;
+        hi[k] = CASE_N * CASE_DX;
+        if (k > 0 || b->face == SPH_OPEN)
+            faces |= SPH_LOW(k) | (k + 1 < SPH_DIM || SPH_DIM == 1 ? SPH_HIGH(k) : 0);
+    }
+    if (!faces)
+        return SPH_OK;
+    sph_status st = sph_add_wall_box(sim, &w, lo, hi, faces, true, &group);
+    return st || !b->gate ? st : sph_remove_wall_at(sim, group, 3e-3);
+}
+
+static sph_status case_build(sph_sim *sim, const bits_case *b)
+{
+    uint32_t set;
+    sph_status st = sph_add_fluid(sim, NULL, &set);
+    if (!st)
+        st = case_water(sim, set);
+    if (!st && b->wall != CASE_NO_WALL)
+        st = case_walls(sim, b);
+    return st;
+}
+
+#endif
