@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* standing_wave.c: a standing gravity wave of small amplitude, one wavelength long. Starts flat, with the velocities of
    linear theory: eta = A sin(w t) cos(k (x - L/2)), w^2 = g k tanh(k d); viscosity damps it as exp(-2 nu k^2 t) (Lamb,
-   Hydrodynamics, section 348). The artificial viscosity is by default as strong as the Reynolds number asks for, nu =
-   alpha h c/8 (Monaghan 2005, in 2-D): along a free surface it exerts the stresses of a Newtonian fluid. Morris's form is
-   a Laplacian of the velocity, whose natural condition at a free surface is another one: it damps half as fast. */
+   Hydrodynamics, section 348). The artificial viscosity is by default as strong as the Reynolds number asks for,
+   nu = alpha h c/8 (Monaghan 2005, in 2-D): along a free surface it exerts the stresses of a Newtonian fluid. Morris's
+   form is a Laplacian of the velocity, whose natural condition at a free surface is another: it damps half as fast. */
 #include "scene.h"
 #if SPH_DIM == 2
 
