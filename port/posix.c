@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* posix.c: a pool of threads for passes of some ten microseconds (see posix.h).
 
-   A job is published as a ticket: its number and the next chunk, in one word. Whoever takes a chunk does so by compare and
-   exchange on that word, so a thread that comes late can only miss a job, never take part in the wrong one, and the
+   A job is published as a ticket: its number and the next chunk, in one word. Whoever takes a chunk does so by compare
+   and exchange on that word, so a thread that comes late can only miss a job, never take part in the wrong one, and the
    caller waits for chunks under way but for nobody who sleeps. Idle threads look for work a short while, then
    sleep on a condition variable. */
 #define _POSIX_C_SOURCE 200809L

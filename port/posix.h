@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* posix.h: what a POSIX machine provides to the kernel: a pool of threads, a clock, files as sinks and sources of dumps.
+/* posix.h: what a POSIX machine provides to the kernel: a pool of threads, a clock, files as sinks and sources of
+   dumps.
 
    It knows nothing of sph.h, whose types differ by build: one object serves all six builds, and several simulations.
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* host.h: what every sub-command needs from the machine: messages, arguments name=value, files that are written whole or
-   not at all. */
+/* host.h: what every sub-command needs from the machine: messages, arguments name=value, files that are written whole
+   or not at all. */
 #ifndef HOST_H
 #define HOST_H
 
@@ -17,8 +17,8 @@
 
 enum { HOST_FINE = 0, HOST_NO = 1, HOST_USAGE = 2 }; /* exit codes */
 
-/* Prints "sph COMMAND: message" and a newline to stderr. The first returns HOST_NO, the second HOST_USAGE (and says where
-   help is). host_command sets the name that messages carry. */
+/* Prints "sph COMMAND: message" and a newline to stderr. The first returns HOST_NO, the second HOST_USAGE (and says
+   where help is). host_command sets the name that messages carry. */
 void host_command(const char *name);
 int host_no(const char *format, ...) HOST_PRINTF(1, 2);
 int host_usage(const char *format, ...) HOST_PRINTF(1, 2);
@@ -26,7 +26,8 @@ int host_usage(const char *format, ...) HOST_PRINTF(1, 2);
 /* true if an argument is --help or -h; then `text` was printed to stdout */
 bool host_help(int argc, char **argv, const char *text);
 
-/* Numbers: the whole text must be one, finite, and inside the range; else a message and false. `name` is for the message. */
+/* Numbers: the whole text must be one, finite, and inside the range; else a message and false. `name` is for the
+ * message. */
 bool host_number(const char *name, const char *text, double min, double max, double *out);
 bool host_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *out);
 /* n numbers separated by commas */
