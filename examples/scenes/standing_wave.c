@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* standing_wave.c: a standing gravity wave of small amplitude, one wavelength long. Starts flat, with the velocities of
    linear theory: eta = A sin(w t) cos(k (x - L/2)), w^2 = g k tanh(k d); viscosity damps it as exp(-2 nu k^2 t) (Lamb,
-   Hydrodynamics, section 348). */
+   Hydrodynamics, section 348). The artificial viscosity is by default as strong as the Reynolds number asks for,
+   nu = alpha h c/8 (Monaghan 2005, in 2-D): along a free surface it exerts the stresses of a Newtonian fluid. Morris's
+   form is a Laplacian of the velocity, whose natural condition at a free surface is another: it damps half as fast. */
 #include "scene.h"
 #if SPH_DIM == 2
 
@@ -9,12 +11,12 @@ enum { DEPTH = SCENE_COMMON, WAVELENGTH, AMPLITUDE, N, RE, SIDES, GRAVITY, SOUND
 enum { SIDES_PERIODIC, SIDES_SYMMETRY };
 
 static const scene_param param[PARAMS] = {
-    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_MORRIS, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 0),
+    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 0),
     {"depth", "m", "depth of the water", 1, 1e-4, 1e4, SCENE_NUMBER},
     {"wavelength", "depth", "wavelength (rounded to whole spacings)", 2, 0.2, 100, SCENE_NUMBER},
     {"amplitude", "depth", "amplitude of the surface", 0.02, 0, 0.5, SCENE_NUMBER},
     {"n", "-", "particles in the depth", 40, 4, 4000, SCENE_WHOLE},
-    {"re", "-", "Reynolds number depth sqrt(g depth)/nu, unless nu is given", 500, 1e-3, 1e9, SCENE_NUMBER},
+    {"re", "-", "Reynolds number depth sqrt(g depth)/nu, unless nu or alpha is given", 500, 1e-3, 1e9, SCENE_NUMBER},
     {"sides", "-", "ends of the tank: periodic symmetry", SIDES_PERIODIC, 0, 1, SCENE_CHOICE},
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
     {"sound", "sqrt(g H)", "sound speed, H the depth", 14.142135623730951, 2, 1000, SCENE_NUMBER},
@@ -22,6 +24,13 @@ static const scene_param param[PARAMS] = {
 };
 
 static double spacing(const double *p) { return p[DEPTH] / p[N]; }
+static double sound(const double *p) { return p[SOUND] * __builtin_sqrt(p[GRAVITY] * p[DEPTH]); }
+static bool is_artificial(const double *p)
+{
+    return p[SCENE_VISCOSITY] == SPH_ARTIFICIAL || p[SCENE_VISCOSITY] == SPH_ARTIFICIAL_APPROACHING;
+}
+/* kinematic viscosity of alpha = 1 */
+static double viscosity_of_alpha(const double *p) { return p[SCENE_H] * spacing(p) * sound(p) / 8; }
 
 /* the wave that p describes; m, s */
 typedef struct wave {
@@ -37,6 +46,10 @@ static wave wave_of(const double *p)
     w.omega = __builtin_sqrt(p[GRAVITY] * w.k * sph_tanh(w.k * w.depth));
     w.amplitude = p[AMPLITUDE] * w.depth;
     w.nu = p[SCENE_NU] > 0 ? p[SCENE_NU] : w.depth * __builtin_sqrt(p[GRAVITY] * w.depth) / p[RE];
+    if (is_artificial(p) && p[SCENE_ALPHA] > 0)
+        w.nu = p[SCENE_ALPHA] * viscosity_of_alpha(p);
+    else if (p[SCENE_VISCOSITY] == SPH_INVISCID)
+        w.nu = 0;
     return w;
 }
 
@@ -44,8 +57,9 @@ static void configure(const double *p, sph_config *c)
 {
     const wave w = wave_of(p);
     const double dx = spacing(p), m = scene_margin(p, dx), lo[2] = {0, 0}, hi[2] = {w.length, w.depth};
-    *c = scene_config(p, dx, 1000, p[SOUND] * __builtin_sqrt(p[GRAVITY] * w.depth));
+    *c = scene_config(p, dx, 1000, sound(p));
     c->nu = w.nu;
+    c->alpha = is_artificial(p) ? w.nu / viscosity_of_alpha(p) : 0;
     c->gravity[1] = -p[GRAVITY];
     c->lo[1] = -m;
     c->hi[0] = w.length;
@@ -68,14 +82,13 @@ static sph_status build(sph_sim *sim, const double *p)
 {
     wave w = wave_of(p);
     const double lo[2] = {0, 0}, hi[2] = {w.length, w.depth};
-    const sph_wall wall = scene_wall(p);
     uint32_t water;
     sph_status st;
     if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, hi, NULL)) != SPH_OK ||
         (st = sph_apply_hydrostatic(sim, water, w.depth)) != SPH_OK ||
         (st = sph_apply_field(sim, water, start, &w)) != SPH_OK)
         return st;
-    return sph_add_wall_box(sim, &wall, lo, hi, SPH_LOW(1), true, NULL);
+    return scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(1));
 }
 
 static double end(const double *p) { return p[PERIODS] * 2 * SCENE_PI / wave_of(p).omega; }
