@@ -514,11 +514,26 @@ static sph_status end_pass(sph_sim *sim)
     return SPH_OK;
 }
 
+/* mass of the fluid that buffer b has, set by set; the dead have none */
+static double fluid_mass(const sph_sim *sim, const sph_buffer *b, uint32_t n)
+{
+    uint32_t count[SPH_MAX_SETS] = {0};
+    double mass = 0;
+    for (uint32_t i = 0; i < n; i++)
+        if (b->set[0][i] != SPH_DEAD)
+            count[b->set[0][i]]++;
+    for (uint32_t s = 0; s < sim->sets; s++)
+        if (sim->set[s].role == SPH_ROLE_FLUID)
+            mass += count[s] * sim->set[s].mass;
+    return mass;
+}
+
 static void commit(sph_sim *sim)
 {
     const bool prime = sim->next.step == sim->now.step;
-    const double lost = sim->next.left > sim->now.left ? (double)(sim->next.left - sim->now.left) : 0;
-    sim->next.removed_mass += lost * (sim->sets ? sim->set[0].mass : 0);
+    if (sim->next.left != sim->now.left)
+        sim->next.removed_mass += fluid_mass(sim, &sim->buf[sim->cur], sim->now.count) -
+                                  fluid_mass(sim, &sim->buf[sim->dst], sim->next.count);
     sim->next.primed = true;
     sim->next.started |= !prime;
     sim->now = sim->next;
