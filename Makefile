@@ -171,8 +171,12 @@ bits:
 bench:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" BITS="$(BITS)" sh tests/bench.sh
 
-size: all
+size: $(LIBS) $(if $(wildcard examples/scenes/scenes.c),$(BUILD)/size_arena)
 	$(Q)BUILD=$(BUILD) CC="$(CC)" SIZE="$(SIZE)" BITS="$(BITS_CC)" ARM_CC="$(ARM_CC)" ARM_SIZE="$(ARM_SIZE)" sh tests/size.sh
+
+$(BUILD)/size_arena: $(BUILD)/obj/tests/size_main.o $(BUILDS:%=$(BUILD)/obj/%/tests/size_arena.o) $(scene_obj) $(LIBS)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
 
 validate: all
 	$(Q)BUILD=$(BUILD) sh tests/validate.sh
