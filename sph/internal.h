@@ -19,7 +19,7 @@
 #include "lanes.h"
 #include "sph.h"
 
-#define SPH_PAD 16u       /* elements that may be read past an array's end by a vector */
+#define SPH_PAD 48u       /* elements that may be read past an array's end by a vector */
 #define SPH_POWERS 4u     /* kept in the books: viscous, wall, diffusion, body force */
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
@@ -200,19 +200,29 @@ double sph_kernel_w(const sph_sim *sim, double r);
 SPH_INLINE bool sph_finite(double x) { return x - x == 0; }
 SPH_INLINE double sph_abs(double x) { return x < 0 ? -x : x; }
 
+/* number of equal leading bytes, in order of address, of two words that differ by x != 0 */
+SPH_INLINE uint32_t sph_equal_bytes(uint64_t x)
+{
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    return (uint32_t)__builtin_clzll(x) / 8;
+#else
+    return (uint32_t)__builtin_ctzll(x) / 8;
+#endif
+}
+
 /* first index in s..e whose set differs from that of s; arrays may be read a little beyond e */
 SPH_INLINE uint32_t sph_run_end(const uint8_t *set, uint32_t s, uint32_t e)
 {
-    uint64_t first = set[s] * (uint64_t)0x0101010101010101u, next;
-    uint32_t i = s;
-    for (; i < e; i += 8) {
+    const uint64_t first = set[s] * (uint64_t)0x0101010101010101u;
+    for (uint32_t i = s; i < e; i += 8) {
+        uint64_t next;
         memcpy(&next, set + i, sizeof next);
-        if (next != first)
-            break;
+        if (next != first) {
+            i += sph_equal_bytes(next ^ first);
+            return i < e ? i : e;
+        }
     }
-    while (i < e && set[i] == set[s])
-        i++;
-    return i < e ? i : e;
+    return e;
 }
 
 /* cell of a position along axis k; the position must be inside the domain */

@@ -72,7 +72,7 @@ typedef sph_int vint __attribute__((vector_size(SPH_W * SPH_REAL_BYTES)));
 #define SPH_SCALAR 0
 SPH_INLINE vreal v_sqrt(vreal a)
 {
-    vreal r;
+    vreal r = a;
     for (int l = 0; l < SPH_W; l++)
         r[l] = SPH_SQRT(a[l]);
     return r;

@@ -262,10 +262,10 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_BOOKS) ? 4u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
-#define SPH_SCRATCH_BYTES ((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 25600u : 73728u) * (SPH_DOUBLE ? 2u : 1u)) /* a thread */
+#define SPH_SCRATCH_BYTES ((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) * (SPH_DOUBLE ? 2u : 1u)) /* a thread */
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
-     ((size_t)(particles) + 16u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
+     ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) * (((use)&SPH_USE_BOOKS) ? 64u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
 #define SPH_ARENA(name, bytes) _Alignas(SPH_ALIGN) unsigned char name[bytes]

@@ -51,28 +51,31 @@ SPH_INLINE vreal load_axis(const filling *f, const image *im, uint32_t k, uint32
     return v_from_int(q * v_set_int(im->sign[k]) + v_set_int(im->shift[k] - f->origin[k])) * quantum;
 }
 
-/* The columns of n particles of one set from index s on. Whole vectors are written: up to 7 elements beyond the last are
-   filled with what follows in memory, and overwritten by the next run or by close_tile. */
+/* The columns of n particles of one set from index s on. Whole strides are written: what lies beyond the last is filled
+   with whatever follows in memory, and overwritten by the next run or by close_tile. */
 SPH_INLINE void load_columns(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n, sph_tile *t,
                              columns c, bool is_image, bool wall)
 {
     const vreal m = v_set(set->mass_r), r0 = v_set(set->rho0_r), b = v_set(set->b_r);
     const uint32_t at = t->n;
-    for (uint32_t j = 0; j < n; j += SPH_W) {
+    /* a row has about SPH_STRIDE particles; copying so many without asking saves a branch that would be mispredicted */
+    for (uint32_t from = 0; from < n; from += SPH_STRIDE)
         SPH_UNROLL
-        for (uint32_t k = 0; k < SPH_DIM; k++) {
-            vreal v = wall ? v_set((sph_real)f->sim->next.group[set->group].vel[k]) : v_load(f->b->vel[k] + s + j);
-            v_store(t->x[k] + at + j, load_axis(f, im, k, s + j, is_image));
-            v_store(t->v[k] + at + j, is_image ? v * im->flip[k] : v);
+        for (uint32_t j = from; j < from + SPH_STRIDE; j += SPH_W) {
+            SPH_UNROLL
+            for (uint32_t k = 0; k < SPH_DIM; k++) {
+                vreal v = wall ? v_set((sph_real)f->sim->next.group[set->group].vel[k]) : v_load(f->b->vel[k] + s + j);
+                v_store(t->x[k] + at + j, load_axis(f, im, k, s + j, is_image));
+                v_store(t->v[k] + at + j, is_image ? v * im->flip[k] : v);
+            }
+            const vreal e = v_load(f->b->rho[0] + s + j);
+            const vreal rho = (1 + e) * r0, p = pressure(c.eos, c.floor, b, e);
+            v_store(t->m + at + j, m);
+            v_store(t->rho + at + j, rho);
+            v_store(t->a + at + j, c.ratio ? p / (rho * rho) : p);
+            if (c.iv)
+                v_store(t->iv + at + j, 1 / rho);
         }
-        const vreal e = v_load(f->b->rho[0] + s + j);
-        const vreal rho = (1 + e) * r0, p = pressure(c.eos, c.floor, b, e);
-        v_store(t->m + at + j, m);
-        v_store(t->rho + at + j, rho);
-        v_store(t->a + at + j, c.ratio ? p / (rho * rho) : p);
-        if (c.iv)
-            v_store(t->iv + at + j, 1 / rho);
-    }
 }
 
 static __attribute__((noinline)) void load_any(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n,
@@ -97,7 +100,7 @@ static void load(const filling *f, const image *im, const sph_set *set, uint32_t
 }
 
 /* positions only, for boundary-force particles */
-static void load_positions(const filling *f, const image *im, uint32_t s, uint32_t n, sph_real (*x)[SPH_TILE + 8], uint32_t at)
+static void load_positions(const filling *f, const image *im, uint32_t s, uint32_t n, sph_real (*x)[SPH_TILE + SPH_STRIDE], uint32_t at)
 {
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t j = 0; j < n; j += SPH_W)
@@ -327,6 +330,15 @@ static void load_homes(filling *f, uint32_t *s, uint32_t e)
     }
 }
 
+/* sums of eight homes; a fixed number of vector stores costs less than finding out how many are needed */
+SPH_INLINE void clear_eight(sph_real *sum)
+{
+    const vreal zero = v_set(0);
+    SPH_UNROLL
+    for (uint32_t k = 0; k < 8 * SPH_LANES; k += SPH_W)
+        v_store(sum + k, zero);
+}
+
 static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
 {
     const sph_sim *sim = f->sim;
@@ -338,8 +350,8 @@ static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
         if (f->homes == 0)
             return;
         for (uint32_t a = 0; a < f->w->sums; a++)
-            for (uint32_t h = 0; h < f->homes; h++) /* eight reals: a store or two, not a call */
-                memset(f->t->sum[a][h], 0, sizeof f->t->sum[a][h]);
+            for (uint32_t h = 0; h < f->homes; h += 8)
+                clear_eight(f->t->sum[a][h]);
         f->t->fluid.n = f->t->ghost.n = f->t->forces = 0;
         add_all(f, c);
         flush(f, SPH_ROLE_FLUID);

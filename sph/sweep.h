@@ -5,43 +5,44 @@
    tile, and what to do with the sums. No neighbour list is kept.
 
    There is a tile for each class of candidates: fluid, ghost walls, boundary-force walls. Candidate number k of a class
-   goes to lane k mod 8, so sums depend on the order of candidates only. A full tile is worked off and refilled:
-   its capacity changes no bit. */
+   goes to lane k mod 8, so sums depend on the order of candidates only. A full tile is worked off and refilled; where
+   both fluid and walls overflow, the capacities decide which comes first: they are part of the definition of the bits. */
 #ifndef SPH_SWEEP_H
 #define SPH_SWEEP_H
 
 #include "internal.h"
 
 #define SPH_TILE (SPH_DIM == 1 ? 64 : SPH_DIM == 2 ? 128 : 384)
-#define SPH_HOMES 16u       /* home particles worked on at once */
+#define SPH_STRIDE (SPH_DIM == 1 ? 8u : SPH_DIM == 2 ? 24u : 48u) /* particles that a row is copied by */
+#define SPH_HOMES 16u /* a multiple of 8 */
 #define SPH_SUMS (SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12)
 #define SPH_SWEEP_CHUNK 32u  /* cells */
 #define SPH_LOCAL_CHUNK 256u /* particles */
 
 typedef struct sph_tile {
     uint32_t n;
-    sph_real x[SPH_DIM][SPH_TILE + 8]; /* m, from the home cell's low corner */
-    sph_real v[SPH_DIM][SPH_TILE + 8]; /* m/s */
-    sph_real m[SPH_TILE + 8];          /* kg */
-    sph_real rho[SPH_TILE + 8];        /* kg/m^3 */
-    sph_real a[SPH_TILE + 8];          /* standard schemes: p/rho^2; others: p */
-    sph_real iv[SPH_TILE + 8];         /* 1/rho, where a formula needs it */
+    sph_real x[SPH_DIM][SPH_TILE + SPH_STRIDE]; /* m, from the home cell's low corner */
+    sph_real v[SPH_DIM][SPH_TILE + SPH_STRIDE]; /* m/s */
+    sph_real m[SPH_TILE + SPH_STRIDE];          /* kg */
+    sph_real rho[SPH_TILE + SPH_STRIDE];        /* kg/m^3 */
+    sph_real a[SPH_TILE + SPH_STRIDE];          /* standard schemes: p/rho^2; others: p */
+    sph_real iv[SPH_TILE + SPH_STRIDE];         /* 1/rho, where a formula needs it */
 } sph_tile;
 
 /* what ghost walls have besides */
 typedef struct sph_ghost_tile {
-    sph_real n[SPH_DIM][SPH_TILE + 8]; /* normal into the fluid */
-    sph_real u[SPH_DIM][SPH_TILE + 8]; /* velocity for the viscosity (Adami) */
-    sph_real depth[SPH_TILE + 8];      /* distance behind the wall, 0: no mirror velocity */
-    sph_real vis[SPH_TILE + 8];        /* 1: viscosity acts, 0: free slip */
+    sph_real n[SPH_DIM][SPH_TILE + SPH_STRIDE]; /* normal into the fluid */
+    sph_real u[SPH_DIM][SPH_TILE + SPH_STRIDE]; /* velocity for the viscosity (Adami) */
+    sph_real depth[SPH_TILE + SPH_STRIDE];      /* distance behind the wall, 0: no mirror velocity */
+    sph_real vis[SPH_TILE + SPH_STRIDE];        /* 1: viscosity acts, 0: free slip */
 } sph_ghost_tile;
 
 typedef struct sph_thread {
     sph_tile home, fluid, ghost;
     sph_ghost_tile more;
     uint32_t forces; /* boundary-force particles: set and position only */
-    sph_real fx[SPH_DIM][SPH_TILE + 8];
-    uint8_t fset[SPH_TILE + 8];
+    sph_real fx[SPH_DIM][SPH_TILE + SPH_STRIDE];
+    uint8_t fset[SPH_TILE + SPH_STRIDE];
     uint32_t home_at[SPH_HOMES]; /* index of the home particle */
     uint8_t home_set[SPH_HOMES];
     sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */

@@ -5,7 +5,7 @@
 #include "scene.h"
 #if SPH_DIM == 2
 
-enum { RADIUS = SCENE_COMMON, N, STRAIN, SOUND, END, PARAMS };
+enum { RADIUS = SCENE_COMMON, N, STRAIN, SOUND, DURATION, PARAMS };
 
 static const scene_param param[PARAMS] = {
     SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 1, 0, 0),
@@ -13,7 +13,7 @@ static const scene_param param[PARAMS] = {
     {"n", "-", "particles in the radius", 20, 4, 4000, SCENE_WHOLE},
     {"strain", "1/s", "strain rate s at the start", 100, 1e-6, 1e6, SCENE_NUMBER},
     {"sound", "radius*strain", "sound speed", 14, 2, 1000, SCENE_NUMBER},
-    {"end", "1/strain", "length of the run", 0.76, 0, 2, SCENE_NUMBER},
+    {"duration", "1/strain", "length of the run", 0.76, 0, 2, SCENE_NUMBER},
 };
 
 static double spacing(const double *p) { return p[RADIUS] / p[N]; }
@@ -24,7 +24,7 @@ static void configure(const double *p, sph_config *c)
     const double dx = spacing(p), lo[2] = {-p[RADIUS] - dx, -p[RADIUS] - dx}, hi[2] = {-lo[0], -lo[1]};
     *c = scene_config(p, dx, 1000, sound(p));
     for (int k = 0; k < 2; k++) { /* b grows at most as exp(s t) */
-        c->hi[k] = k == 0 ? 1.5 * p[RADIUS] : 1.5 * p[RADIUS] * sph_exp(p[END]);
+        c->hi[k] = k == 0 ? 1.5 * p[RADIUS] : 1.5 * p[RADIUS] * sph_exp(p[DURATION]);
         c->lo[k] = -c->hi[k];
     }
     c->max_particles = scene_capacity(scene_box_count(lo, hi, dx));
@@ -53,7 +53,7 @@ static sph_status build(sph_sim *sim, const double *p)
     return sph_apply_field(sim, water, start, q);
 }
 
-static double end(const double *p) { return p[END] / p[STRAIN]; }
+static double end(const double *p) { return p[DURATION] / p[STRAIN]; }
 
 /* s, a, b and their rates */
 static void rates(const double *y, double *dy)

@@ -4,7 +4,7 @@
 #include "scene.h"
 #if SPH_DIM == 2
 
-enum { DEPTH = SCENE_COMMON, WIDTH, N, GRAVITY, SOUND, START, END, PARAMS };
+enum { DEPTH = SCENE_COMMON, WIDTH, N, GRAVITY, SOUND, START, DURATION, PARAMS };
 
 static const scene_param param[PARAMS] = {
     SCENE_COMMON_PARAMS(SPH_CUBIC, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 0.998, 10000, 0),
@@ -14,7 +14,7 @@ static const scene_param param[PARAMS] = {
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
     {"sound", "sqrt(g H)", "sound speed, H the depth", 14.142135623730951, 2, 1000, SCENE_NUMBER},
     {"start", "-", "pressure at the start: uniform hydrostatic", SCENE_UNIFORM, 0, 1, SCENE_CHOICE},
-    {"end", "s", "length of the run", 3, 0, 1e9, SCENE_NUMBER},
+    {"duration", "s", "length of the run", 3, 0, 1e9, SCENE_NUMBER},
 };
 
 static double spacing(const double *p) { return p[DEPTH] / p[N]; }
@@ -45,7 +45,7 @@ static sph_status build(sph_sim *sim, const double *p)
     return sph_add_wall_box(sim, &wall, lo, hi, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1), true, NULL);
 }
 
-static double end(const double *p) { return p[END]; }
+static double end(const double *p) { return p[DURATION]; }
 
 static const char *const column[] = {"time_s", "surface_m", "pressure_error_rms_-", "pressure_error_max_-",
                                      "kinetic_J/m", "max_speed_m/s", "dissipated_J/m"};

@@ -5,7 +5,7 @@
 #include "scene.h"
 #if SPH_DIM == 2
 
-enum { SIDE = SCENE_COMMON, SPEED, RE, N, JITTER, SEED, SOUND, END, PARAMS };
+enum { SIDE = SCENE_COMMON, SPEED, RE, N, JITTER, SEED, SOUND, DURATION, PARAMS };
 
 static const scene_param param[PARAMS] = {
     SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 2, SPH_ISOTHERMAL, SPH_MORRIS, 0, SPH_NO_DIFFUSION, SCENE_ADAMI, 1, 0, 0),
@@ -16,7 +16,7 @@ static const scene_param param[PARAMS] = {
     {"jitter", "dx", "largest random displacement from the lattice, on each axis", 0.2, 0, 0.5, SCENE_NUMBER},
     {"seed", "-", "of the displacements", 1, 0, 4294967295.0, SCENE_WHOLE},
     {"sound", "speed", "sound speed", 10, 1, 1000, SCENE_NUMBER},
-    {"end", "side/speed", "length of the run", 1, 0, 1e6, SCENE_NUMBER},
+    {"duration", "side/speed", "length of the run", 1, 0, 1e6, SCENE_NUMBER},
 };
 
 static double spacing(const double *p) { return p[SIDE] / p[N]; }
@@ -68,7 +68,7 @@ static sph_status build(sph_sim *sim, const double *p)
     return st;
 }
 
-static double end(const double *p) { return p[END] * p[SIDE] / p[SPEED]; }
+static double end(const double *p) { return p[DURATION] * p[SIDE] / p[SPEED]; }
 
 static const char *const column[] = {"time_s", "kinetic_J/m", "kinetic_exact_J/m", "max_speed_m/s",
                                      "max_speed_exact_m/s", "velocity_error_L2_-"};
