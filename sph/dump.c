@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* dump.c: the state as a stream of bytes, and back. Little-endian on every machine; nothing but the tables below says what
-   is in it, so writer and reader cannot disagree. No array is added: a restore reads into the spare state buffer.
+/* dump.c: the state as a stream of bytes, and back. Little-endian on every machine; nothing but the tables below says
+   what is in it, so writer and reader cannot disagree. No array is added: a restore reads into the spare buffer.
 
      preamble   32 bytes, the same in all versions
                  0  magic 89 'S' 'P' 'H' 0d 0a 1a 0a
@@ -21,13 +21,13 @@
      array      all elements' first component, then all elements' second, ...
      record     for each field 32 bytes: name 16, unit 12, u8 type (4, 6 or 7), u8 components, u16 0;
                 then the rows: 8 bytes for each component of each field
-     order      scene, set, group, run, state (records); arrays; "end": one u32, the CRC-32 of the CRCs of the
+     order      scene, sets, groups, run, state (records); arrays; "end": one u32, the CRC-32 of the CRCs of the
                 preamble and of header and payload of every section before it, in order
 
-   CRC-32 is that of IEEE 802.3 (zlib). Positions are integers, also in a reduced dump: x = lo + quantum * pos. `rho` is the
-   relative density excess (density - rho0)/rho0 with the rho0 of the particle's set; set 255 is a particle that is gone.
-   Pressure from it: scene.eos and set.pressure_scale (see SPH_TAIT in sph.h). A wall particle moves with the
-   velocity of its group: its `vel` is what viscosity sees. */
+   CRC-32 is that of IEEE 802.3 (zlib). Positions are integers, also in a reduced dump: x = lo + quantum * pos. `rho`
+   is the relative density excess (density - rho0)/rho0 with the rho0 of the particle's set; set 255 is a particle that
+   is gone. Pressure from it: scene.eos and sets.pressure_scale (see SPH_TAIT in sph.h). A wall particle moves with
+   the velocity of its group: its `vel` is what viscosity sees. */
 #include "fluid.h"
 
 #include <float.h>
@@ -149,8 +149,8 @@ _Static_assert(sizeof(sph_scalars) == 8 * (4 + 2 * SPH_POWERS) + 4 * 5 + 4 + 3 *
                "sph_scalars has changed: name the new member in state_fields");
 
 static const record scene_record = {"scene", scene_fields, COUNT_OF(scene_fields), sizeof(sph_sim), true};
-static const record set_record = {"set", set_fields, COUNT_OF(set_fields), sizeof(sph_set), true};
-static const record group_record = {"group", group_fields, COUNT_OF(group_fields), sizeof(sph_group_state), false};
+static const record set_record = {"sets", set_fields, COUNT_OF(set_fields), sizeof(sph_set), true};
+static const record group_record = {"groups", group_fields, COUNT_OF(group_fields), sizeof(sph_group_state), false};
 static const record run_record = {"run", run_fields, COUNT_OF(run_fields), sizeof(run), false};
 static const record state_record = {"state", state_fields, COUNT_OF(state_fields), sizeof(sph_scalars), false};
 

@@ -1,0 +1,440 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* cmd_history.c: sph history. Reads the CSV files of `sph run`: checks and summarises them, chooses and converts columns,
+   overlays several runs and measured points in a plot (by gnuplot). */
+#define _POSIX_C_SOURCE 200809L
+#include "commands.h"
+#include "host.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "usage: sph history FILE.csv... [columns=LIST] [out=NAME.csv] [plot=NAME.png] [reference=FILE.csv] [size=WxH]\n"
+    "Without out= and plot=: checks each file (rows complete, numbers finite, first column increasing) and prints for each\n"
+    "column its first, last, smallest and largest value.\n"
+    "  columns=       chosen columns, separated by commas (default: all). NAME, or NAME*FACTOR, NAME+OFFSET,\n"
+    "                 NAME*FACTOR+OFFSET, each may be followed by :NEWNAME, e.g. columns=time_s*13.1:T,front_m*17.5:Z\n"
+    "  out=NAME.csv   the chosen columns of one file as CSV\n"
+    "  plot=NAME.png  the chosen columns against the first of them, all files in one plot; needs gnuplot\n"
+    "  reference=     a CSV whose second and further columns are drawn as points against its first\n"
+    "  size=WxH       of the plot in pixels, default 960x640\n";
+
+#define MAX_COLUMNS 64
+
+typedef struct history {
+    const char *file;
+    unsigned char *text;
+    const char *title; /* the comment in the first line, or "" */
+    const char *name[MAX_COLUMNS];
+    uint32_t columns, rows;
+    double *value; /* row by row */
+} history;
+
+static double at(const history *h, uint32_t row, uint32_t column) { return h->value[(size_t)row * h->columns + column]; }
+
+/* ---- reading ---- */
+
+/* the next line of *p, without its end; null at the end */
+static char *next_line(char **p)
+{
+    char *line = *p;
+    if (!*line)
+        return NULL;
+    char *end = line + strcspn(line, "\n");
+    *p = *end ? end + 1 : end;
+    *end = '\0';
+    if (end > line && end[-1] == '\r')
+        end[-1] = '\0';
+    return line;
+}
+
+static bool read_names(history *h, char *line)
+{
+    for (char *p = line; p; h->columns++) {
+        if (h->columns == MAX_COLUMNS) {
+            host_no("%s: more than %d columns", h->file, MAX_COLUMNS);
+            return false;
+        }
+        char *comma = strchr(p, ',');
+        if (comma)
+            *comma = '\0';
+        while (*p == ' ')
+            p++;
+        if (!*p) {
+            host_no("%s: a column without a name", h->file);
+            return false;
+        }
+        h->name[h->columns] = p;
+        p = comma ? comma + 1 : NULL;
+    }
+    return true;
+}
+
+static bool read_row(history *h, char *line, unsigned long number, size_t *room)
+{
+    size_t n = (size_t)h->rows * h->columns;
+    if (n + h->columns > *room) {
+        *room = 2 * (n + h->columns);
+        h->value = host_realloc(h->value, *room * sizeof *h->value);
+    }
+    for (uint32_t k = 0; k < h->columns; k++) {
+        char *end;
+        double v = strtod(line, &end);
+        while (*end == ' ')
+            end++;
+        if (end == line || *end != (k + 1 < h->columns ? ',' : '\0')) {
+            host_no("%s: line %lu: column %s is not a number, or there are not %u columns", h->file, number, h->name[k],
+                    h->columns);
+            return false;
+        }
+        h->value[n + k] = v;
+        line = end + 1;
+    }
+    h->rows++;
+    return true;
+}
+
+static void close_history(history *h)
+{
+    free(h->text);
+    free(h->value);
+}
+
+static bool read_lines(history *h, char *p)
+{
+    size_t room = 0;
+    unsigned long number = 0;
+    for (char *line; (line = next_line(&p));) {
+        number++;
+        if (*line == '#') {
+            if (number == 1)
+                h->title = line + 1 + strspn(line + 1, " ");
+        } else if (*line && !h->columns) {
+            if (!read_names(h, line))
+                return false;
+        } else if (*line && !read_row(h, line, number, &room))
+            return false;
+    }
+    if (h->rows)
+        return true;
+    host_no("%s: no rows", h->file);
+    return false;
+}
+
+static bool open_history(history *h, const char *file)
+{
+    size_t size;
+    memset(h, 0, sizeof *h);
+    h->file = file;
+    h->title = "";
+    h->text = host_read(file, &size);
+    if (!h->text)
+        return false;
+    if (read_lines(h, (char *)h->text))
+        return true;
+    close_history(h);
+    return false;
+}
+
+/* ---- choosing columns ---- */
+
+typedef struct pick {
+    uint32_t column;
+    double factor, offset;
+    char name[64];
+} pick;
+
+static int find_column(const history *h, const char *name, size_t n)
+{
+    for (uint32_t k = 0; k < h->columns; k++)
+        if (strlen(h->name[k]) == n && !memcmp(h->name[k], name, n))
+            return (int)k;
+    return -1;
+}
+
+/* one item of columns=: NAME[*FACTOR][+OFFSET][:NEWNAME], up to `end` */
+static bool parse_pick(const history *h, const char *item, const char *end, pick *p)
+{
+    const char *stop = item + strcspn(item, "*+:,");
+    char *next = NULL;
+    int k = find_column(h, item, (size_t)(stop - item));
+    *p = (pick){0, 1, 0, ""};
+    if (k < 0) {
+        host_usage("columns: %s has no column %.*s", h->file, (int)(stop - item), item);
+        fputs("columns there:", stderr);
+        for (uint32_t c = 0; c < h->columns; c++)
+            fprintf(stderr, " %s", h->name[c]);
+        fputc('\n', stderr);
+        return false;
+    }
+    p->column = (uint32_t)k;
+    snprintf(p->name, sizeof p->name, "%s", h->name[k]);
+    if (*stop == '*') {
+        p->factor = strtod(stop + 1, &next);
+        stop = next == stop + 1 ? "?" : next;
+    }
+    if (*stop == '+') {
+        p->offset = strtod(stop + 1, &next);
+        stop = next == stop + 1 ? "?" : next;
+    }
+    if (*stop == ':' && end > stop + 1) {
+        snprintf(p->name, sizeof p->name, "%.*s", (int)(end - stop - 1), stop + 1);
+        stop = end;
+    }
+    if (stop == end && isfinite(p->factor) && isfinite(p->offset))
+        return true;
+    host_usage("columns: %.*s: must be NAME, NAME*FACTOR, NAME+OFFSET or NAME*FACTOR+OFFSET, then perhaps :NEWNAME",
+               (int)(end - item), item);
+    return false;
+}
+
+/* how many columns were chosen, 0 after a message */
+static uint32_t choose(const history *h, const char *list, pick *p)
+{
+    uint32_t n = 0;
+    if (!list) {
+        for (; n < h->columns; n++) {
+            p[n] = (pick){n, 1, 0, ""};
+            snprintf(p[n].name, sizeof p[n].name, "%s", h->name[n]);
+        }
+        return n;
+    }
+    for (const char *item = list; item; n++) {
+        const char *end = item + strcspn(item, ",");
+        if (n == MAX_COLUMNS || !parse_pick(h, item, end, &p[n]))
+            return 0;
+        item = *end ? end + 1 : NULL;
+    }
+    return n;
+}
+
+static double picked(const history *h, uint32_t row, const pick *p) { return at(h, row, p->column) * p->factor + p->offset; }
+
+/* ---- check and summary ---- */
+
+static bool check(const history *h)
+{
+    for (uint32_t i = 0; i < h->rows; i++)
+        for (uint32_t k = 0; k < h->columns; k++)
+            if (!isfinite(at(h, i, k))) {
+                host_no("%s: row %u: %s is not finite", h->file, i + 1, h->name[k]);
+                return false;
+            }
+    for (uint32_t i = 1; i < h->rows; i++)
+        if (!(at(h, i, 0) > at(h, i - 1, 0))) {
+            host_no("%s: row %u: %s does not increase: %.9g after %.9g", h->file, i + 1, h->name[0], at(h, i, 0),
+                    at(h, i - 1, 0));
+            return false;
+        }
+    return true;
+}
+
+static bool summarise(const history *h, const char *list)
+{
+    pick p[MAX_COLUMNS];
+    uint32_t n = choose(h, list, p);
+    if (!n)
+        return false;
+    printf("%s: %u rows%s%s\n", h->file, h->rows, *h->title ? ", " : "", h->title);
+    printf("  %-28s %14s %14s %14s %14s\n", "column", "first", "last", "smallest", "largest");
+    for (uint32_t k = 0; k < n; k++) {
+        double low = picked(h, 0, &p[k]), high = low;
+        for (uint32_t i = 1; i < h->rows; i++) {
+            low = fmin(low, picked(h, i, &p[k]));
+            high = fmax(high, picked(h, i, &p[k]));
+        }
+        printf("  %-28s %14.7g %14.7g %14.7g %14.7g\n", p[k].name, picked(h, 0, &p[k]), picked(h, h->rows - 1, &p[k]), low,
+               high);
+    }
+    return true;
+}
+
+static int write_columns(const history *h, const char *list, const char *out)
+{
+    pick p[MAX_COLUMNS];
+    host_file f;
+    uint32_t n = choose(h, list, p);
+    if (!n)
+        return HOST_USAGE;
+    if (!host_create(&f, out))
+        return HOST_NO;
+    if (*h->title)
+        fprintf(f.f, "# %s\n", h->title);
+    for (uint32_t k = 0; k < n; k++)
+        fprintf(f.f, "%s%s", k ? "," : "", p[k].name);
+    fputc('\n', f.f);
+    for (uint32_t i = 0; i < h->rows; i++) {
+        for (uint32_t k = 0; k < n; k++)
+            fprintf(f.f, "%s%.17g", k ? "," : "", picked(h, i, &p[k]));
+        fputc('\n', f.f);
+    }
+    return host_finish(&f, true) ? HOST_FINE : HOST_NO;
+}
+
+/* ---- plot ---- */
+
+/* text inside single quotes of gnuplot */
+static void quote(FILE *g, const char *text)
+{
+    fputc('\'', g);
+    for (; *text; text++)
+        fprintf(g, *text == '\'' ? "''" : "%c", *text);
+    fputc('\'', g);
+}
+
+static void put_block(FILE *g, const char *name, uint32_t number, const history *h, const pick *p, uint32_t n)
+{
+    fprintf(g, "$%s%u << END_OF_DATA\n", name, number);
+    for (uint32_t i = 0; i < h->rows; i++)
+        for (uint32_t k = 0; k < n; k++)
+            fprintf(g, "%.17g%c", picked(h, i, &p[k]), k + 1 < n ? ' ' : '\n');
+    fputs("END_OF_DATA\n", g);
+}
+
+static void put_curves(FILE *g, const char *name, uint32_t number, const history *h, const pick *p, uint32_t n,
+                       const char *with, bool *first)
+{
+    for (uint32_t k = 1; k < n; k++) {
+        char title[256];
+        snprintf(title, sizeof title, "%s: %s", h->file, p[k].name);
+        fprintf(g, "%s $%s%u using 1:%u with %s title ", *first ? "plot" : ",", name, number, k + 1, with);
+        quote(g, title);
+        *first = false;
+    }
+}
+
+typedef struct curves {
+    history h;
+    pick p[MAX_COLUMNS];
+    uint32_t n;
+} curves;
+
+static bool read_curves(curves *c, const char *file, const char *list)
+{
+    if (!open_history(&c->h, file))
+        return false;
+    c->n = choose(&c->h, list, c->p);
+    if (c->n > 1)
+        return true;
+    if (c->n == 1)
+        host_usage("%s: a plot needs two columns", file);
+    close_history(&c->h);
+    return false;
+}
+
+static void put_script(FILE *g, const curves *c, uint32_t files, uint32_t refs, const char *tmp, int width, int height)
+{
+    bool first = true;
+    fprintf(g, "set terminal pngcairo noenhanced size %d,%d\nset output ", width, height);
+    quote(g, tmp);
+    fputs("\nset grid\nset key outside bottom center\nset xlabel ", g);
+    quote(g, c[0].p[0].name);
+    if (c[0].n == 2) {
+        fputs("\nset ylabel ", g);
+        quote(g, c[0].p[1].name);
+    }
+    fputs("\n", g);
+    for (uint32_t k = 0; k < files + refs; k++)
+        put_block(g, "data", k, &c[k].h, c[k].p, c[k].n);
+    for (uint32_t k = 0; k < files + refs; k++)
+        put_curves(g, "data", k, &c[k].h, c[k].p, c[k].n, k < files ? "lines linewidth 2" : "points pointtype 7", &first);
+    fputs("\n", g);
+}
+
+static int run_gnuplot(const curves *c, uint32_t files, uint32_t refs, const char *out, int width, int height)
+{
+    if (system("command -v gnuplot >/dev/null 2>&1") != 0)
+        return host_no("plot= needs gnuplot, which is not installed (on Debian: the package gnuplot-nox); "
+                       "out=NAME.csv writes the columns without it");
+    size_t room = strlen(out) + 8;
+    char *tmp = host_alloc(room);
+    snprintf(tmp, room, "%s.tmp", out);
+    FILE *g = popen("gnuplot", "w");
+    int result = HOST_NO;
+    if (g) {
+        put_script(g, c, files, refs, tmp, width, height);
+        result = pclose(g) == 0 && rename(tmp, out) == 0 ? HOST_FINE : HOST_NO;
+    }
+    if (result) {
+        remove(tmp);
+        host_no("gnuplot could not make %s", out);
+    }
+    free(tmp);
+    return result;
+}
+
+static int plot(char **files, uint32_t n, const char *list, const char *reference, const char *out, int width, int height)
+{
+    curves *c = host_alloc((n + 1) * sizeof *c);
+    uint32_t read = 0, all = n + (reference != NULL);
+    while (read < all && read_curves(&c[read], read < n ? files[read] : reference, read < n ? list : NULL))
+        read++;
+    int result = read == all ? run_gnuplot(c, n, all - n, out, width, height) : HOST_NO;
+    for (uint32_t k = 0; k < read; k++)
+        close_history(&c[k].h);
+    free(c);
+    return result;
+}
+
+/* ---- the command ---- */
+
+static bool ends_in(const char *text, const char *end)
+{
+    size_t n = strlen(text), m = strlen(end);
+    return n > m && !strcmp(text + n - m, end);
+}
+
+static int summarise_all(char **files, int n, const char *list)
+{
+    int result = HOST_FINE;
+    for (int k = 0; k < n; k++) {
+        history h;
+        if (!open_history(&h, files[k])) {
+            result = HOST_NO;
+            continue;
+        }
+        if (!check(&h) || !summarise(&h, list))
+            result = HOST_NO;
+        close_history(&h);
+    }
+    return result;
+}
+
+int cmd_history(int argc, char **argv)
+{
+    static const char *const known[] = {"columns", "out", "plot", "reference", "size", NULL};
+    int width = 960, height = 640, result = HOST_FINE;
+    char rest;
+    host_command("history");
+    if (host_help(argc, argv, help))
+        return HOST_FINE;
+    int files = host_known_options(argc, argv, known);
+    if (files < 0)
+        return HOST_USAGE;
+    const char *list = host_option(argc, argv, "columns"), *out = host_option(argc, argv, "out");
+    const char *image = host_option(argc, argv, "plot"), *reference = host_option(argc, argv, "reference");
+    const char *size = host_option(argc, argv, "size");
+    if (files == 0)
+        return host_usage("give at least one history file");
+    if (size && (sscanf(size, "%dx%d%c", &width, &height, &rest) != 2 || width < 200 || width > 16000 || height < 150 ||
+                 height > 16000))
+        return host_usage("size=%s: must be WIDTHxHEIGHT, from 200x150 to 16000x16000", size);
+    if (image && !ends_in(image, ".png"))
+        return host_usage("plot=%s: must end in .png", image);
+    if (reference && !image)
+        return host_usage("reference= is for plot=");
+    if (out && files > 1)
+        return host_usage("out= takes one history file, %d were given", files);
+    if (out) {
+        history h;
+        if (!open_history(&h, argv[1]))
+            return HOST_NO;
+        result = write_columns(&h, list, out);
+        close_history(&h);
+    }
+    if (image && !result)
+        result = plot(argv + 1, (uint32_t)files, list, reference, image, width, height);
+    return out || image ? result : summarise_all(argv + 1, files, list);
+}

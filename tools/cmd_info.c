@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* cmd_info.c: sph info. What is in a dump: scene, sets, state, arrays with their ranges. */
+#include "commands.h"
+#include "dumpfile.h"
+#include "host.h"
+
+#include <string.h>
+
+static const char help[] =
+    "usage: sph info DUMP...\n"
+    "Prints what a dump holds: the records (scene, sets, groups, run, state) field by field with units, then its arrays with\n"
+    "type, unit, count and range. Every checksum is verified on the way.\n";
+
+static void print_value(const dump_section *s, const dump_member *m, uint64_t row)
+{
+    for (uint32_t k = 0; k < m->comps; k++) {
+        uint64_t bits = dump_member_bits(s, m, row, k);
+        if (m->type == DUMP_F64)
+            printf("%s%.12g", k ? ", " : "", dump_member_value(s, m, row, k));
+        else if (m->type == DUMP_I64)
+            printf("%s%.0f", k ? ", " : "", dump_member_value(s, m, row, k));
+        else if (!strcmp(m->name, "setup"))
+            printf("%016llx", (unsigned long long)bits);
+        else
+            printf("%s%llu", k ? ", " : "", (unsigned long long)bits);
+    }
+    printf("%s%s", strcmp(m->unit, "1") ? " " : "", strcmp(m->unit, "1") ? m->unit : "");
+}
+
+static void print_record(const dump_section *s)
+{
+    dump_member m;
+    for (uint64_t row = 0; row < s->count; row++) {
+        if (s->count > 1 || !strcmp(s->name, "sets") || !strcmp(s->name, "groups"))
+            printf("%s %llu\n", s->name, (unsigned long long)row);
+        else
+            printf("%s\n", s->name);
+        for (uint32_t f = 0; dump_get_member(s, f, &m); f++) {
+            printf("  %-16s ", m.name);
+            print_value(s, &m, row);
+            putchar('\n');
+        }
+    }
+}
+
+static void print_array(const dump_section *s)
+{
+    printf("  %-8s %-4s %u x %llu, %s:", s->name, dump_type_name(s->type), s->comps, (unsigned long long)s->count,
+           strcmp(s->unit, "1") ? s->unit : "no unit");
+    for (uint32_t k = 0; k < s->comps && s->count; k++) {
+        double low = dump_value(s, k, 0), high = low;
+        for (uint64_t i = 1; i < s->count; i++) {
+            double v = dump_value(s, k, i);
+            low = v < low ? v : low;
+            high = v > high ? v : high;
+        }
+        printf("%s %.9g .. %.9g", k ? "," : "", low, high);
+    }
+    putchar('\n');
+}
+
+static void print_dump(const dump_file *d)
+{
+    uint32_t by_role[4] = {0, 0, 0, 0};
+    for (uint32_t i = 0; i < d->n; i++) {
+        uint32_t role = dump_role(d, i);
+        by_role[role < 3 ? role : 3]++;
+    }
+    printf("%s: %s dump, version %u, %u-D, %s, %zu bytes\n", d->name, d->full ? "full" : "reduced", d->version, d->dim,
+           d->real_bytes == 8 ? "double" : "float", d->size);
+    printf("%u particles: %u fluid, %u ghost wall, %u force wall, %u gone\n", d->n, by_role[0], by_role[1], by_role[2],
+           by_role[3]);
+    for (uint32_t k = 0; k < d->sections; k++)
+        if (d->section[k].type == DUMP_RECORD)
+            print_record(&d->section[k]);
+    printf("arrays\n");
+    for (uint32_t k = 0; k < d->sections; k++)
+        if (d->section[k].type != DUMP_RECORD && strcmp(d->section[k].name, "end") != 0)
+            print_array(&d->section[k]);
+}
+
+int cmd_info(int argc, char **argv)
+{
+    static const char *const known[] = {NULL};
+    int result = HOST_FINE;
+    host_command("info");
+    if (host_help(argc, argv, help))
+        return HOST_FINE;
+    int files = host_known_options(argc, argv, known);
+    if (files < 0)
+        return HOST_USAGE;
+    if (files == 0)
+        return host_usage("give at least one dump");
+    for (int i = 1; i <= files; i++) {
+        dump_file d;
+        if (dump_open(&d, argv[i])) {
+            print_dump(&d);
+            dump_close(&d);
+        } else
+            result = HOST_NO;
+    }
+    return result;
+}

@@ -1,0 +1,486 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* dumpfile.c: reads and checks dumps (see dumpfile.h; layout: sph/dump.c). */
+#include "dumpfile.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host.h"
+
+#define VERSION 1u
+#define PREAMBLE 32u
+#define HEADER 64u
+#define FIELD 32u
+
+static uint64_t number(const unsigned char *p, uint32_t bytes)
+{
+    uint64_t v = 0;
+    for (uint32_t i = bytes; i-- > 0;)
+        v = v << 8 | p[i];
+    return v;
+}
+
+static uint32_t crc32(uint32_t crc, const unsigned char *p, size_t n)
+{
+    static uint32_t table[256];
+    if (!table[1])
+        for (uint32_t i = 0; i < 256; i++) {
+            uint32_t c = i;
+            for (int k = 0; k < 8; k++)
+                c = c & 1 ? c >> 1 ^ 0xedb88320u : c >> 1;
+            table[i] = c;
+        }
+    crc = ~crc;
+    while (n--)
+        crc = crc >> 8 ^ table[(crc ^ *p++) & 255];
+    return ~crc;
+}
+
+static uint32_t chain(uint32_t crc, const unsigned char *stored) { return crc32(crc, stored, 4); }
+
+static bool refuse(const dump_file *d, const char *why, const char *where)
+{
+    host_no("%s: %s%s%s", d->name, why, *where ? ": " : "", where);
+    return false;
+}
+
+uint32_t dump_type_bytes(uint32_t type)
+{
+    static const uint8_t bytes[] = {8, 1, 4, 4, 8, 4, 8, 8};
+    return type < sizeof bytes ? bytes[type] : 0;
+}
+const char *dump_type_name(uint32_t type)
+{
+    static const char *const name[] = {"record", "u8", "u32", "i32", "i64", "f32", "f64", "u64"};
+    return type < sizeof name / sizeof *name ? name[type] : "?";
+}
+
+/* ---- structure ---- */
+
+static bool read_preamble(dump_file *d)
+{
+    static const unsigned char magic[8] = {0x89, 'S', 'P', 'H', 0x0d, 0x0a, 0x1a, 0x0a};
+    const unsigned char *p = d->bytes;
+    size_t head = d->size < sizeof magic ? d->size : sizeof magic;
+    if (d->size == 0)
+        return refuse(d, "the file is empty", "");
+    if (memcmp(p, magic, head) != 0)
+        return refuse(d, "not a dump", "");
+    if (d->size < PREAMBLE)
+        return refuse(d, "the dump ends too early", "in its preamble");
+    if (crc32(0, p, 28) != number(p + 28, 4))
+        return refuse(d, "the dump is corrupt", "checksum of the preamble");
+    d->version = (uint32_t)number(p + 8, 4);
+    d->dim = p[12];
+    d->real_bytes = p[13];
+    d->pos_bytes = p[14];
+    d->full = p[15] == 1;
+    d->sections = (uint32_t)number(p + 24, 4);
+    if (d->version != VERSION) {
+        host_no("%s: the dump has version %u, this program reads version %u", d->name, d->version, VERSION);
+        return false;
+    }
+    if (d->dim < 1 || d->dim > 3 || (d->real_bytes != 4 && d->real_bytes != 8) || d->pos_bytes != d->real_bytes || p[15] > 1)
+        return refuse(d, "the dump is corrupt", "impossible preamble");
+    if (number(p + 16, 8) > d->size)
+        return refuse(d, "the dump ends too early", "it is shorter than its preamble says");
+    if (number(p + 16, 8) < d->size)
+        return refuse(d, "the dump is corrupt", "bytes behind its end");
+    if (d->sections < 6 || d->sections > d->size / HEADER)
+        return refuse(d, "the dump is corrupt", "number of sections");
+    return true;
+}
+
+/* the section at *at; moves it on */
+static bool read_section(dump_file *d, uint32_t k, size_t *at, uint32_t *sum)
+{
+    const unsigned char *h = d->bytes + *at;
+    dump_section *s = &d->section[k];
+    if (d->size - *at < HEADER + 4)
+        return refuse(d, "the dump ends too early", "in a section's header");
+    if (crc32(0, h, 60) != number(h + 60, 4))
+        return refuse(d, "the dump is corrupt", "checksum of a section's header");
+    memcpy(s->name, h, 16);
+    memcpy(s->unit, h + 16, 16);
+    s->type = (uint32_t)number(h + 32, 4);
+    s->comps = (uint32_t)number(h + 36, 4);
+    s->count = number(h + 40, 8);
+    s->bytes = number(h + 48, 8);
+    s->data = h + HEADER;
+    if (number(h + 56, 4) != k || !s->name[0] || !dump_type_bytes(s->type) || s->comps == 0 || s->comps > 1000)
+        return refuse(d, "the dump is corrupt", "a section's header is impossible");
+    if (s->bytes > d->size - *at - HEADER - 4)
+        return refuse(d, "the dump ends too early", s->name);
+    if (s->type != DUMP_RECORD && (s->count > d->size || s->bytes != s->count * s->comps * dump_type_bytes(s->type)))
+        return refuse(d, "the dump is corrupt: size of a section", s->name);
+    if (crc32(0, s->data, s->bytes) != number(s->data + s->bytes, 4))
+        return refuse(d, "the dump is corrupt: checksum of a section", s->name);
+    if (!strcmp(s->name, "end") && (s->bytes != 4 || number(s->data, 4) != *sum))
+        return refuse(d, "the dump is corrupt", "checksum of all sections");
+    *sum = chain(chain(*sum, h + 60), s->data + s->bytes);
+    *at += HEADER + s->bytes + 4;
+    return true;
+}
+
+/* a record's fields must fill its payload */
+static bool check_record(const dump_file *d, const dump_section *s)
+{
+    uint64_t row = 0;
+    if (s->bytes < (uint64_t)s->comps * FIELD)
+        return refuse(d, "the dump is corrupt: size of a record", s->name);
+    for (uint32_t f = 0; f < s->comps; f++) {
+        const unsigned char *p = s->data + f * FIELD;
+        if (!p[0] || p[29] == 0 || (p[28] != DUMP_F64 && p[28] != DUMP_I64 && p[28] != DUMP_U64))
+            return refuse(d, "the dump is corrupt: a field of a record", s->name);
+        row += p[29];
+    }
+    if (s->count > d->size || s->bytes != (uint64_t)s->comps * FIELD + s->count * row * 8)
+        return refuse(d, "the dump is corrupt: size of a record", s->name);
+    return true;
+}
+
+/* a number from a record as a small index; nonsense becomes 0 */
+static uint32_t small(double x) { return x >= 0 && x < 1e9 ? (uint32_t)x : 0; }
+
+static bool needs(const dump_file *d, const char *record, const char *field, uint32_t comps)
+{
+    dump_member m;
+    const dump_section *s = dump_find(d, record);
+    if (!s || s->type != DUMP_RECORD || !dump_find_member(s, field, &m) || m.comps != comps)
+        return refuse(d, "the dump is corrupt: it lacks", field);
+    return true;
+}
+
+static bool check_arrays(dump_file *d)
+{
+    static const struct {
+        const char *name;
+        uint32_t type, comps; /* 0: that of reals, of positions (1); the dimension */
+    } list[] = {{"pos", 1, 0}, {"id", DUMP_U32, 1}, {"set", DUMP_U8, 1}, {"vel", 0, 0},
+                {"rho", 0, 1}, {"p", 0, 1},         {"acc", 0, 0},       {"drho", 0, 1}, {"xsph", 0, 0}};
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
+        const dump_section *s = dump_find(d, list[k].name);
+        uint32_t type = list[k].type > 1 || k == 2 ? list[k].type
+                        : list[k].type             ? d->pos_bytes == 8 ? DUMP_I64 : DUMP_I32
+                                                   : d->real_bytes == 8 ? DUMP_F64 : DUMP_F32;
+        if (!s && k < 3)
+            return refuse(d, "the dump is corrupt: it lacks", list[k].name);
+        if (s && (s->type != type || s->comps != (list[k].comps ? list[k].comps : d->dim) || s->count != d->n))
+            return refuse(d, "the dump is corrupt: shape of", list[k].name);
+    }
+    d->pos = dump_find(d, "pos");
+    d->id = dump_find(d, "id");
+    d->set = dump_find(d, "set");
+    for (uint32_t i = 0; i < d->n; i++)
+        if (dump_set(d, i) != DUMP_DEAD && dump_set(d, i) >= d->sets)
+            return refuse(d, "the dump is corrupt", "a particle of an unknown set");
+    return true;
+}
+
+static bool read_scalars(dump_file *d)
+{
+    if (!needs(d, "scene", "lo", d->dim) || !needs(d, "scene", "hi", d->dim) || !needs(d, "scene", "quantum", 1) ||
+        !needs(d, "scene", "spacing", 1) || !needs(d, "scene", "eos", 1) || !needs(d, "scene", "pressure_floor", 1) ||
+        !needs(d, "sets", "role", 1) || !needs(d, "sets", "rho0", 1) || !needs(d, "sets", "group", 1) ||
+        !needs(d, "sets", "pressure_scale", 1) || !needs(d, "groups", "velocity", d->dim) ||
+        !needs(d, "state", "time", 1) || !needs(d, "state", "step", 1) || !needs(d, "state", "particles", 1))
+        return false;
+    if (dump_find(d, "scene")->count != 1 || dump_find(d, "state")->count != 1)
+        return refuse(d, "the dump is corrupt", "rows of its records");
+    for (uint32_t k = 0; k < d->dim; k++) {
+        d->lo[k] = dump_number(d, "scene", "lo", 0, k);
+        d->hi[k] = dump_number(d, "scene", "hi", 0, k);
+    }
+    d->quantum = dump_number(d, "scene", "quantum", 0, 0);
+    d->spacing = dump_number(d, "scene", "spacing", 0, 0);
+    d->time = dump_number(d, "state", "time", 0, 0);
+    d->step = (uint64_t)dump_number(d, "state", "step", 0, 0);
+    double n = dump_number(d, "state", "particles", 0, 0);
+    if (!(n >= 0 && n < 4294967295.0))
+        return refuse(d, "the dump is corrupt", "number of particles");
+    d->n = (uint32_t)n;
+    d->sets = (uint32_t)dump_find(d, "sets")->count;
+    if (d->sets > DUMP_DEAD)
+        return refuse(d, "the dump is corrupt", "number of sets");
+    d->eos = small(dump_number(d, "scene", "eos", 0, 0));
+    d->pressure_floor = dump_number(d, "scene", "pressure_floor", 0, 0) != 0;
+    return check_arrays(d);
+}
+
+static bool read_all(dump_file *d)
+{
+    if (!read_preamble(d))
+        return false;
+    size_t at = PREAMBLE;
+    uint32_t sum = chain(0, d->bytes + 28);
+    d->section = host_alloc(d->sections * sizeof *d->section);
+    memset(d->section, 0, d->sections * sizeof *d->section);
+    for (uint32_t k = 0; k < d->sections; k++) {
+        if (!read_section(d, k, &at, &sum))
+            return false;
+        if (d->section[k].type == DUMP_RECORD && !check_record(d, &d->section[k]))
+            return false;
+    }
+    if (strcmp(d->section[d->sections - 1].name, "end") != 0 || at != d->size)
+        return refuse(d, "the dump is corrupt", "its last section is not its end");
+    return read_scalars(d);
+}
+
+bool dump_open(dump_file *d, const char *name)
+{
+    memset(d, 0, sizeof *d);
+    d->name = name;
+    d->bytes = host_read(name, &d->size);
+    if (!d->bytes)
+        return false;
+    if (read_all(d))
+        return true;
+    dump_close(d);
+    return false;
+}
+
+void dump_close(dump_file *d)
+{
+    free(d->section);
+    free(d->bytes);
+    d->section = NULL;
+    d->bytes = NULL;
+}
+
+/* ---- elements ---- */
+
+const dump_section *dump_find(const dump_file *d, const char *name)
+{
+    for (uint32_t k = 0; k < d->sections; k++)
+        if (!strcmp(d->section[k].name, name))
+            return &d->section[k];
+    return NULL;
+}
+
+uint64_t dump_bits(const dump_section *s, uint32_t comp, uint64_t i)
+{
+    uint32_t size = dump_type_bytes(s->type);
+    uint64_t u = number(s->data + (comp * s->count + i) * size, size);
+    return s->type == DUMP_I32 && u >> 31 ? u | 0xffffffff00000000u : u;
+}
+
+static double as_double(uint32_t type, uint64_t u)
+{
+    double d;
+    float f;
+    uint32_t w = (uint32_t)u;
+    switch (type) {
+    case DUMP_F32: memcpy(&f, &w, 4); return (double)f;
+    case DUMP_F64: memcpy(&d, &u, 8); return d;
+    case DUMP_I32:
+    case DUMP_I64: return u >> 63 ? -(double)(~u + 1) : (double)u;
+    default: return (double)u;
+    }
+}
+double dump_value(const dump_section *s, uint32_t comp, uint64_t i) { return as_double(s->type, dump_bits(s, comp, i)); }
+
+bool dump_get_member(const dump_section *record, uint32_t f, dump_member *m)
+{
+    memset(m, 0, sizeof *m);
+    if (f >= record->comps)
+        return false;
+    for (uint32_t k = 0; k < f; k++)
+        m->at += record->data[k * FIELD + 29];
+    const unsigned char *p = record->data + f * FIELD;
+    memcpy(m->name, p, 16);
+    memcpy(m->unit, p + 16, 12);
+    m->type = p[28];
+    m->comps = p[29];
+    return true;
+}
+bool dump_find_member(const dump_section *record, const char *name, dump_member *m)
+{
+    for (uint32_t f = 0; dump_get_member(record, f, m); f++)
+        if (!strcmp(m->name, name))
+            return true;
+    return false;
+}
+
+uint64_t dump_member_bits(const dump_section *record, const dump_member *m, uint64_t row, uint32_t comp)
+{
+    dump_member last;
+    dump_get_member(record, record->comps - 1, &last);
+    return number(record->data + record->comps * FIELD + (row * (last.at + last.comps) + m->at + comp) * 8, 8);
+}
+double dump_member_value(const dump_section *record, const dump_member *m, uint64_t row, uint32_t comp)
+{
+    return as_double(m->type, dump_member_bits(record, m, row, comp));
+}
+double dump_number(const dump_file *d, const char *record, const char *field, uint64_t row, uint32_t comp)
+{
+    dump_member m;
+    const dump_section *s = dump_find(d, record);
+    if (!s || s->type != DUMP_RECORD || !dump_find_member(s, field, &m) || row >= s->count || comp >= m.comps)
+        return 0;
+    return dump_member_value(s, &m, row, comp);
+}
+
+/* ---- particles ---- */
+
+uint32_t dump_set(const dump_file *d, uint32_t i) { return (uint32_t)dump_bits(d->set, 0, i); }
+uint32_t dump_id(const dump_file *d, uint32_t i) { return (uint32_t)dump_bits(d->id, 0, i); }
+uint32_t dump_role(const dump_file *d, uint32_t i)
+{
+    uint32_t set = dump_set(d, i);
+    return set == DUMP_DEAD ? DUMP_GONE : small(dump_number(d, "sets", "role", set, 0));
+}
+double dump_x(const dump_file *d, uint32_t i, uint32_t axis)
+{
+    return d->lo[axis] + d->quantum * dump_value(d->pos, axis, i);
+}
+
+/* constants of the sets, looked up once for a whole field */
+typedef struct set_constants {
+    uint32_t role, group;
+    double rho0, scale;
+} set_constants;
+
+static void get_sets(const dump_file *d, set_constants *c)
+{
+    for (uint32_t s = 0; s < d->sets && s < 256; s++)
+        c[s] = (set_constants){small(dump_number(d, "sets", "role", s, 0)), small(dump_number(d, "sets", "group", s, 0)),
+                               dump_number(d, "sets", "rho0", s, 0), dump_number(d, "sets", "pressure_scale", s, 0)};
+}
+
+/* equations of state by their number in sph.h: 2 linear, 3 isothermal, else Tait's */
+static double pressure(const dump_file *d, double scale, double s)
+{
+    double p = d->eos == 2   ? scale * s
+               : d->eos == 3 ? scale * (1 + s)
+                          : scale * (s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s)))))));
+    return d->pressure_floor && p < 0 ? 0 : p;
+}
+
+enum { F_NONE, F_X, F_VELOCITY, F_SPEED, F_DENSITY, F_PRESSURE, F_ACCELERATION, F_SET, F_ID };
+
+static int parse_field(const dump_file *d, const char *field, uint32_t *axis)
+{
+    static const struct {
+        const char *name;
+        int kind;
+    } whole[] = {{"speed", F_SPEED}, {"density", F_DENSITY}, {"pressure", F_PRESSURE}, {"set", F_SET}, {"id", F_ID}},
+      parts[] = {{"velocity_", F_VELOCITY}, {"acceleration_", F_ACCELERATION}, {"", F_X}};
+    for (size_t k = 0; k < sizeof whole / sizeof *whole; k++)
+        if (!strcmp(field, whole[k].name))
+            return whole[k].kind;
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        size_t n = strlen(parts[k].name);
+        if (!strncmp(field, parts[k].name, n) && field[n] >= 'x' && field[n] <= 'z' && !field[n + 1]) {
+            *axis = (uint32_t)(field[n] - 'x');
+            return *axis < d->dim ? parts[k].kind : F_NONE;
+        }
+    }
+    return F_NONE;
+}
+
+static const char *array_of(const dump_file *d, int kind)
+{
+    switch (kind) {
+    case F_X: return "pos";
+    case F_VELOCITY:
+    case F_SPEED: return "vel";
+    case F_DENSITY: return "rho";
+    case F_PRESSURE: return dump_find(d, "rho") ? "rho" : "p";
+    case F_ACCELERATION: return "acc";
+    case F_SET: return "set";
+    default: return "id";
+    }
+}
+
+bool dump_has_field(const dump_file *d, const char *field)
+{
+    uint32_t axis = 0;
+    int kind = parse_field(d, field, &axis);
+    return kind != F_NONE && dump_find(d, array_of(d, kind));
+}
+
+/* a velocity component; a wall has that of its group */
+static double velocity(const dump_file *d, const dump_section *a, const set_constants *c, uint32_t i, uint32_t axis)
+{
+    if (c && c->role != DUMP_FLUID)
+        return dump_number(d, "groups", "velocity", c->group, axis);
+    return dump_value(a, axis, i);
+}
+
+static double one_value(const dump_file *d, int kind, const dump_section *a, const set_constants *c, uint32_t i,
+                        uint32_t axis)
+{
+    double v2 = 0;
+    switch (kind) {
+    case F_X: return dump_x(d, i, axis);
+    case F_VELOCITY: return velocity(d, a, c, i, axis);
+    case F_SPEED:
+        for (uint32_t k = 0; k < d->dim; k++)
+            v2 += velocity(d, a, c, i, k) * velocity(d, a, c, i, k);
+        return sqrt(v2);
+    case F_DENSITY: return c ? c->rho0 * (1 + dump_value(a, 0, i)) : 0;
+    case F_PRESSURE:
+        return !c ? 0 : strcmp(a->name, "rho") ? dump_value(a, 0, i) : pressure(d, c->scale, dump_value(a, 0, i));
+    default: return dump_value(a, axis, i);
+    }
+}
+
+bool dump_field(const dump_file *d, const char *field, double *out, const char **unit)
+{
+    static const char *const units[] = {"", "m", "m/s", "m/s", "kg/m^3", "Pa", "m/s^2", "", ""};
+    uint32_t axis = 0;
+    int kind = parse_field(d, field, &axis);
+    if (kind == F_NONE) {
+        host_usage("field %s: not a field of a %u-D dump; fields: " DUMP_FIELDS, field, d->dim);
+        return false;
+    }
+    const dump_section *a = dump_find(d, array_of(d, kind));
+    if (!a) {
+        host_no("%s: carries no array %s, which the field %s needs", d->name, array_of(d, kind), field);
+        return false;
+    }
+    set_constants sets[256] = {{0}};
+    get_sets(d, sets);
+    *unit = units[kind];
+    for (uint32_t i = 0; i < d->n; i++) {
+        uint32_t set = dump_set(d, i);
+        out[i] = one_value(d, kind, a, set == DUMP_DEAD ? NULL : &sets[set], i, axis);
+    }
+    return true;
+}
+
+/* ---- checks of values ---- */
+
+bool dump_check(const dump_file *d)
+{
+    double most = dump_number(d, "scene", "max_particles", 0, 0);
+    bool fine = true;
+    if (!(most >= d->n && most < 4294967296.0))
+        return refuse(d, "more particles than max_particles", "");
+    unsigned char *seen = host_alloc((size_t)most + 1);
+    memset(seen, 0, (size_t)most + 1);
+    for (uint32_t i = 0; fine && i < d->n; i++) {
+        uint32_t id = dump_id(d, i);
+        if (id >= most || seen[id]) {
+            host_no("%s: id %u is there twice or too large", d->name, id);
+            fine = false;
+        } else
+            seen[id] = 1;
+        for (uint32_t k = 0; fine && k < d->dim; k++)
+            if (!(fabs(dump_x(d, i, k) - 0.5 * (d->lo[k] + d->hi[k])) <= 1.5 * (d->hi[k] - d->lo[k]))) {
+                host_no("%s: particle %u is at %g m, far outside the domain", d->name, id, dump_x(d, i, k));
+                fine = false;
+            }
+    }
+    free(seen);
+    for (uint32_t k = 0; fine && k < d->sections; k++) {
+        const dump_section *s = &d->section[k];
+        for (uint64_t i = 0; fine && (s->type == DUMP_F32 || s->type == DUMP_F64) && i < s->count * s->comps; i++)
+            if (!isfinite(dump_value(s, 0, i))) {
+                host_no("%s: %s is not finite at element %llu", d->name, s->name, (unsigned long long)i);
+                fine = false;
+            }
+    }
+    return fine;
+}

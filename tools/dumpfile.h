@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* dumpfile.h: a dump of any dimension and precision, read into memory and checked (layout: sph/dump.c). It shares no code
+   with the kernel, so it is a second reading of the format. */
+#ifndef DUMPFILE_H
+#define DUMPFILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { DUMP_RECORD, DUMP_U8, DUMP_U32, DUMP_I32, DUMP_I64, DUMP_F32, DUMP_F64, DUMP_U64 };
+enum { DUMP_FLUID, DUMP_GHOST, DUMP_FORCE_WALL, DUMP_GONE }; /* roles */
+#define DUMP_DEAD 255u /* set of a particle that is gone */
+
+typedef struct dump_section {
+    char name[17], unit[17];
+    uint32_t type, comps; /* of a record: comps is the number of fields */
+    uint64_t count, bytes;
+    const unsigned char *data;
+} dump_section;
+
+typedef struct dump_file {
+    const char *name;
+    unsigned char *bytes;
+    size_t size;
+    uint32_t version, dim, real_bytes, pos_bytes, sections;
+    bool full;
+    dump_section *section;
+    /* what everyone asks for */
+    uint32_t n, sets;
+    double time, lo[3], hi[3], quantum, spacing;
+    uint64_t step;
+    uint32_t eos;
+    bool pressure_floor;
+    const dump_section *pos, *id, *set;
+} dump_file;
+
+/* Reads, checks every checksum and everything that later calls rely on. False after a message that says why. */
+bool dump_open(dump_file *d, const char *name);
+void dump_close(dump_file *d);
+/* What a restore would ask besides: ids once each, finite values, positions inside. False after a message. */
+bool dump_check(const dump_file *d);
+
+/* sections and their elements; a record's field f is found by name, its values by row and component */
+const dump_section *dump_find(const dump_file *d, const char *name); /* null if it is not there */
+uint64_t dump_bits(const dump_section *s, uint32_t comp, uint64_t i); /* the stored bits; signed types extended */
+double dump_value(const dump_section *s, uint32_t comp, uint64_t i);
+uint32_t dump_type_bytes(uint32_t type);
+const char *dump_type_name(uint32_t type);
+
+typedef struct dump_member {
+    char name[17], unit[13];
+    uint32_t type, comps, at; /* at: number of 8-byte values before it in a row */
+} dump_member;
+bool dump_get_member(const dump_section *record, uint32_t f, dump_member *m);
+bool dump_find_member(const dump_section *record, const char *name, dump_member *m);
+uint64_t dump_member_bits(const dump_section *record, const dump_member *m, uint64_t row, uint32_t comp);
+double dump_member_value(const dump_section *record, const dump_member *m, uint64_t row, uint32_t comp);
+/* the value of record.field[row][comp]; 0 if there is none */
+double dump_number(const dump_file *d, const char *record, const char *field, uint64_t row, uint32_t comp);
+
+/* particles */
+uint32_t dump_set(const dump_file *d, uint32_t i);
+uint32_t dump_id(const dump_file *d, uint32_t i);
+uint32_t dump_role(const dump_file *d, uint32_t i);
+double dump_x(const dump_file *d, uint32_t i, uint32_t axis); /* m */
+
+/* Fields by name: x y z, velocity_x.., speed, density, pressure, acceleration_x.., set, id. Fills out[0..n) and the unit;
+   false after a message if the dump does not carry it. dump_has_field asks without a message. */
+#define DUMP_FIELDS "x y z velocity_x velocity_y velocity_z speed density pressure acceleration_x.. set id"
+bool dump_field(const dump_file *d, const char *field, double *out, const char **unit);
+bool dump_has_field(const dump_file *d, const char *field);
+
+#endif
