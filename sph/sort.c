@@ -374,7 +374,8 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
             advance_block(sim, &a, i, n, &o, true, 0, 0, t);
             for (uint32_t j = 0; j < n;) { /* runs of particles that stay next to each other are copied as one */
                 uint32_t e = j + 1;
-                while (e < n && at[j] != NO_CELL && at[e] == at[e - 1] + 1) /* NO_CELL + 1 is place 0 */
+                /* NO_CELL + 1 is 0, which is a place: who stays behind ends a run and begins none */
+                while (e < n && at[j] != NO_CELL && at[e] == at[e - 1] + 1)
                     e++;
                 if (at[j] != NO_CELL)
                     put_run(b, &o, set + i, i, j, e - j, at[j]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* build.h: one of the six builds of the kernel (1-D, 2-D, 3-D; float, double) behind pointers that look the same for all,
-   so that one program runs every scene in every precision. build.c is compiled six times and makes one table each. */
+/* build.h: one of the six builds of the kernel (1-D, 2-D, 3-D; float, double) behind pointers that look the same for
+   all, so that one program runs every scene in every precision. build.c is compiled six times, one table each. */
 #ifndef BUILD_H
 #define BUILD_H
 

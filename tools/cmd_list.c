@@ -50,13 +50,14 @@ static void print_scene(const build *b, const build_scene *s)
 {
     char value[64], range[140], min[64], max[64];
     print_line(b, s);
-    printf("\n%-12s %-16s %-10s %-20s %s\n", "parameter", "default", "unit", "range", "what");
+    printf("\n%-12s %-19s %-10s %-20s %s\n", "parameter", "default", "unit", "range", "what");
     for (uint32_t i = 0; i < s->params; i++) {
         const scene_param *p = &s->param[(i + SCENE_COMMON_COUNT) % s->params]; /* the scene's own first */
         build_param_text(p, p->value, value, sizeof value);
         range_text(p, min, max, sizeof min);
         snprintf(range, sizeof range, "%s .. %s", min, max);
-        printf("%-12s %-16s %-10s %-20s %s\n", p->name, value, p->unit, p->kind == SCENE_CHOICE ? "a name" : range, p->what);
+        printf("%-12s %-19s %-10s %-20s %s\n", p->name, value, p->unit, p->kind == SCENE_CHOICE ? "a name" : range,
+               p->what);
     }
     printf("\nhistory:");
     for (uint32_t i = 0; i < s->columns; i++)

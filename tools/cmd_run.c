@@ -25,15 +25,15 @@ static const char help[] =
     "  steps=N                 stop after so many steps\n"
     "  every=SECONDS           a row of history (and a dump) so often, or\n"
     "  frames=N                so many in all; 20 unless given\n"
-    "  out=PREFIX              write PREFIX.csv and dumps PREFIX_0000.sph ...; without it the history goes to standard\n"
-    "                          output and nothing is written\n"
+    "  out=PREFIX              write PREFIX.csv and dumps PREFIX_0000.sph ...; without it the history goes to\n"
+    "                          standard output and nothing is written\n"
     "  dump=full|picture|none  what dumps hold; picture (position, velocity, density, pressure) unless given\n"
     "  restore=FILE            go on from a full dump of the same scene and parameters\n"
     "  stage_log=FILE          a hash after every pass of every step, to find where two machines part\n"
     "  hash                    print nothing but the hash of the last state to standard output\n"
     "\n"
-    "^C ends the run after the step, with a full dump that restore= takes. A step that fails leaves the state before it,\n"
-    "which goes into a full dump; exit code 1.\n";
+    "^C ends the run after the step, with a full dump that restore= takes. A step that fails leaves the state before\n"
+    "it, which goes into a full dump; exit code 1.\n";
 
 enum { DUMP_FULL, DUMP_PICTURE, DUMP_NONE };
 enum { MOST_PARAMS = 128, MOST_COLUMNS = 64, FRAMES = 20 };
@@ -322,7 +322,8 @@ static void report(const run *r, FILE *out)
     fprintf(out, "scene          %s, %u-D, %s, %llu thread%s\n", r->scene.name, r->b->dimension,
             r->is_double ? "double" : "float", (unsigned long long)r->threads, r->threads == 1 ? "" : "s");
     fprintf(out, "particles      %u fluid, %u wall\n", o.fluid, o.wall);
-    fprintf(out, "time           %.10g s, %llu steps, last dt %.4g s\n", info.time, (unsigned long long)info.step, info.dt);
+    fprintf(out, "time           %.10g s, %llu steps, last dt %.4g s\n", info.time,
+            (unsigned long long)info.step, info.dt);
     if (steps)
         fprintf(out, "speed          %.4g steps/s, %.4g particle-steps/s, %.2f s in %llu steps\n", rate,
                 rate * (o.fluid + o.wall), s, (unsigned long long)steps);
@@ -332,7 +333,8 @@ static void report(const run *r, FILE *out)
     fprintf(out, "walls, faces   crossed %u, put back %u, left %u, reflected %u, mass removed %.6g kg\n", info.crossed,
             info.put_back, info.left, info.reflected, o.removed_mass);
     fprintf(out, "energy         kinetic %.8g, potential %.8g, internal %.8g J\n", o.kinetic, o.potential, o.internal);
-    fprintf(out, "books          wall work %.8g, dissipated %.8g, diffused %.8g J\n", o.wall_work, o.dissipated, o.diffused);
+    fprintf(out, "books          wall work %.8g, dissipated %.8g, diffused %.8g J\n", o.wall_work, o.dissipated,
+            o.diffused);
     fprintf(out, "density        %.8g .. %.8g kg/m^3; mass %.10g kg; fastest %.6g m/s\n", o.min_density, o.max_density,
             o.mass, o.max_speed);
     fprintf(out, "hash           %016llx\n", (unsigned long long)r->b->hash(r->sim));

@@ -66,7 +66,6 @@ static void released(void *ctx, const double *x, double *v, double *rho)
 static sph_status build(sph_sim *sim, const double *p)
 {
     const double lo[2] = {0, 0}, column[2] = {p[A], p[N2] * p[A]};
-    const sph_wall wall = scene_wall(p);
     double hi[2], q[PARAMS];
     uint32_t water;
     sph_status st;
@@ -79,7 +78,7 @@ static sph_status build(sph_sim *sim, const double *p)
         st = sph_apply_hydrostatic(sim, water, column[1]);
     else if (p[START] == SCENE_RELEASED)
         st = sph_apply_field(sim, water, released, q);
-    return st ? st : sph_add_wall_box(sim, &wall, lo, hi, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1), true, NULL);
+    return st ? st : scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1));
 }
 
 static double end(const double *p) { return (p[N2] > 1 ? 6 : 4) / rate(p); }

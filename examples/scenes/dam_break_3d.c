@@ -55,7 +55,6 @@ static void configure(const double *p, sph_config *c)
 static sph_status build(sph_sim *sim, const double *p)
 {
     const double lo[3] = {0, 0, 0};
-    const sph_wall wall = scene_wall(p);
     double block[3], tank[3];
     uint32_t water;
     sph_status st;
@@ -64,7 +63,7 @@ static sph_status build(sph_sim *sim, const double *p)
         (st = sph_add_box(sim, water, lo, block, NULL)) != SPH_OK ||
         (st = sph_apply_hydrostatic(sim, water, block[2])) != SPH_OK)
         return st;
-    return sph_add_wall_box(sim, &wall, lo, tank, FACES, true, NULL);
+    return scene_add_tank(sim, p, lo, tank, spacing(p), FACES);
 }
 
 static double end(const double *p) { return 3 / rate(p); }

@@ -92,11 +92,17 @@ sph_wall scene_wall(const double *p);
 #define scene_margin SPH_NAME(scene_margin)
 double scene_margin(const double *p, double dx);
 
-/* Particles of the lattice in a box, and of walls of the chosen faces on the inside of it; for max_particles. */
+/* Particles of the lattice in a box, and of the walls that scene_add_tank makes; for max_particles. */
 #define scene_box_count SPH_NAME(scene_box_count)
 double scene_box_count(const double *lo, const double *hi, double dx);
 #define scene_wall_count SPH_NAME(scene_wall_count)
 double scene_wall_count(const double *p, const double *lo, const double *hi, double dx, uint32_t faces);
+
+/* Adds the chosen faces of a box as walls, the fluid's lattice reaching to them on the inside. Lennard-Jones walls
+   stand half a spacing further out: their force begins a whole spacing from the wall and is huge at half of one. */
+#define scene_add_tank SPH_NAME(scene_add_tank)
+sph_status scene_add_tank(sph_sim *sim, const double *p, const double *lo, const double *hi, double dx,
+                          uint32_t faces);
 
 /* n as a capacity, at most what the kernel takes */
 #define scene_capacity SPH_NAME(scene_capacity)

@@ -81,6 +81,24 @@ static double wall_layers(const double *p)
 
 double scene_margin(const double *p, double dx) { return (wall_layers(p) + 1) * dx; }
 
+static void move_walls(const double *p, const double *lo, const double *hi, double dx, uint32_t faces, double *wlo,
+                       double *whi)
+{
+    double gap = p[SCENE_WALL] == SCENE_LENNARD_JONES ? 0.5 * dx : 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        wlo[k] = lo[k] - (faces & SPH_LOW(k) ? gap : 0);
+        whi[k] = hi[k] + (faces & SPH_HIGH(k) ? gap : 0);
+    }
+}
+
+sph_status scene_add_tank(sph_sim *sim, const double *p, const double *lo, const double *hi, double dx, uint32_t faces)
+{
+    const sph_wall wall = scene_wall(p);
+    double wlo[SPH_DIM], whi[SPH_DIM];
+    move_walls(p, lo, hi, dx, faces, wlo, whi);
+    return sph_add_wall_box(sim, &wall, wlo, whi, faces, true, NULL);
+}
+
 static double intervals(double length, double dx)
 {
     double n = length / dx + 0.5;
@@ -97,9 +115,10 @@ double scene_box_count(const double *lo, const double *hi, double dx)
 
 double scene_wall_count(const double *p, const double *lo, const double *hi, double dx, uint32_t faces)
 {
-    double outer = 1, inner = 1;
+    double outer = 1, inner = 1, wlo[SPH_DIM], whi[SPH_DIM];
+    move_walls(p, lo, hi, dx, faces, wlo, whi);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        double n = intervals(hi[k] - lo[k], dx), f = ((faces & SPH_LOW(k)) != 0) + ((faces & SPH_HIGH(k)) != 0);
+        double n = intervals(whi[k] - wlo[k], dx), f = ((faces & SPH_LOW(k)) != 0) + ((faces & SPH_HIGH(k)) != 0);
         /* layers stand around the box; rows take the nodes of its surface */
         outer *= has_layers(p) ? n + f * wall_layers(p) : n + 1;
         inner *= has_layers(p) ? n : n + 1 - f;

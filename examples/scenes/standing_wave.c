@@ -68,14 +68,13 @@ static sph_status build(sph_sim *sim, const double *p)
 {
     wave w = wave_of(p);
     const double lo[2] = {0, 0}, hi[2] = {w.length, w.depth};
-    const sph_wall wall = scene_wall(p);
     uint32_t water;
     sph_status st;
     if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, hi, NULL)) != SPH_OK ||
         (st = sph_apply_hydrostatic(sim, water, w.depth)) != SPH_OK ||
         (st = sph_apply_field(sim, water, start, &w)) != SPH_OK)
         return st;
-    return sph_add_wall_box(sim, &wall, lo, hi, SPH_LOW(1), true, NULL);
+    return scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(1));
 }
 
 static double end(const double *p) { return p[PERIODS] * 2 * SCENE_PI / wave_of(p).omega; }
