@@ -5,7 +5,7 @@ set -eu
 build=$1 dir=$1/demo n=12
 mkdir -p "$dir"
 rm -f "$dir"/dam_break*
-echo "  a column of water breaks free (about 1300 particles) ..."
+echo "  a column of water breaks free (900 particles and its walls) ..."
 "$build/sph" run dam_break frames=$n out="$dir/dam_break"
 shot=$(ls "$dir"/dam_break_*.sph | sed -n "$((n / 2 + 1))p")
 last=$(ls "$dir"/dam_break_*.sph | tail -n 1)
