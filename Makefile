@@ -79,12 +79,12 @@ build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all demo test golden bits bench size validate coverage lint help clean tests
+.PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
 
-all: $(LIBS) $(TOOL)
+all: $(LIBS) $(TOOL) examples
 
 # ---- kernel, scenes and whatever else is compiled once for each of the six builds ----
 
@@ -117,6 +117,15 @@ $(BUILD)/sph: $(tools_obj) $(build_obj) $(scene_obj) $(port_obj) $(LIBS)
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $(THREADS) $^ -o $@ $(PNG_LIBS) -lm
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
+
+# ---- examples: each examples/NAME.c is a program on the 2-D float build ----
+
+EXAMPLES := $(PROGS:examples/%.c=$(BUILD)/examples/%)
+examples: $(EXAMPLES)
+$(BUILD)/examples/%: $(BUILD)/obj/2f/examples/%.o $(SCENES:%.c=$(BUILD)/obj/2f/%.o) $(port_obj) $(BUILD)/libsph2f.a
+	$(say) link $@
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $(THREADS) $^ -o $@ -lm
 
 # ---- demo: a dam break, a picture, a dump, a history; needs a C compiler and make only ----
 
@@ -171,11 +180,15 @@ bits:
 bench:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" BITS="$(BITS)" sh tests/bench.sh
 
-size: all
+size: $(LIBS) $(if $(wildcard examples/scenes/scenes.c),$(BUILD)/size_arena)
 	$(Q)BUILD=$(BUILD) CC="$(CC)" SIZE="$(SIZE)" BITS="$(BITS_CC)" ARM_CC="$(ARM_CC)" ARM_SIZE="$(ARM_SIZE)" sh tests/size.sh
 
+$(BUILD)/size_arena: $(BUILD)/obj/tests/size_main.o $(BUILDS:%=$(BUILD)/obj/%/tests/size_arena.o) $(scene_obj) $(LIBS)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
+
 validate: all
-	$(Q)BUILD=$(BUILD) sh tests/validate.sh
+	$(Q)$(PYTHON) tests/validate.py --tool $(BUILD)/sph
 
 coverage:
 	$(Q)BUILD=$(BUILD)/coverage GCC="$(GCC)" GCOV="$(GCOV)" MAKE="$(MAKE)" OUT=$(BUILD) sh tests/coverage.sh

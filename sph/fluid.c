@@ -55,9 +55,9 @@ void sph_make_factors(sph_sim *sim)
     f->reach2 = (sph_real)(support * support * h * h * 1.0001); /* the scalar form skips beyond: all terms are 0 there */
     f->slope = (sph_real)slope;
     f->value = (sph_real)value;
-    /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = 2 rho0 |mu'| in the beta term */
+    /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = (rho_i + rho_j) |mu'| */
     f->av_alpha = (sph_real)(2 * h * c->alpha * c->sound_speed);
-    f->av_beta = (sph_real)(4 * h * h * c->beta * c->rho0);
+    f->av_beta = (sph_real)(2 * h * h * c->beta);
     f->morris = (sph_real)(4 * c->nu);
     f->diff = (sph_real)(2 * c->delta * h * c->sound_speed);
     double c2 = c->sound_speed * c->sound_speed * (c->eos == SPH_TAIT_GRAY ? 7 : 1);
@@ -178,7 +178,7 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         if (c->viscosity == SPH_MORRIS) {
             fm = mg * r2 * inv * f->morris;
         } else {
-            visc = mu * (f->av_alpha + f->av_beta * v_abs(mu)) * mg;
+            visc = mu * (f->av_alpha + f->av_beta * ((h->rho + rho) * v_abs(mu))) * mg;
             force = force - visc;
         }
         mu = v_where(v_less(q, v_set(f->reach)), v_abs(mu));

@@ -158,7 +158,7 @@ static void mend_block(const sph_sim *sim, const advance *a, uint32_t i, uint32_
                 t->left++;
             continue;
         }
-        t->reflected += own && !all && r == 1;
+        t->reflected += own && !all && r == 1 && sim->mode != SPH_ADV_RK; /* half time: the whole step counts */
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             o->pos[k][j] = q[k];
             if (all)

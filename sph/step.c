@@ -251,12 +251,15 @@ static void rk_particle(sph_sim *sim, uint32_t i, sph_thread *t)
     double move[SPH_DIM];
     sph_pos from[SPH_DIM];
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        const sph_real v = o->vel[k][p], x = b->xsph[k] ? b->xsph[k][i] : 0;
-        const sph_real mid = v + half * b->acc[k][i];
-        const sph_real u = momentum ? (sph_real)0.5 * ((v + dt * o->acc[k][p]) + v) : b->vel[k][i];
+        const sph_real v = o->vel[k][p], half_v = v + half * o->acc[k][p];
+        /* a mirror face that turned the velocity at half time turned the frame of the forces there: turn it back */
+        const sph_real turn = b->vel[k][i] == half_v ? 1 : -1;
+        const sph_real a = turn * b->acc[k][i], x = b->xsph[k] ? turn * b->xsph[k][i] : 0;
+        const sph_real mid = v + half * a;
+        const sph_real u = momentum ? (sph_real)0.5 * ((v + dt * o->acc[k][p]) + v) : half_v;
         move[k] = (double)dt * (double)(u + x);
         from[k] = o->pos[k][p];
-        b->vel[k][i] = (sph_real)sim->cfg.damping * (momentum ? v + dt * b->acc[k][i] : 2 * mid - v);
+        b->vel[k][i] = (sph_real)sim->cfg.damping * (momentum ? v + dt * a : 2 * mid - v);
     }
     place(sim, i, move, from, t);
 }
@@ -514,11 +517,26 @@ static sph_status end_pass(sph_sim *sim)
     return SPH_OK;
 }
 
+/* mass of the fluid that buffer b has, set by set; the dead have none */
+static double fluid_mass(const sph_sim *sim, const sph_buffer *b, uint32_t n)
+{
+    uint32_t count[SPH_MAX_SETS] = {0};
+    double mass = 0;
+    for (uint32_t i = 0; i < n; i++)
+        if (b->set[0][i] != SPH_DEAD)
+            count[b->set[0][i]]++;
+    for (uint32_t s = 0; s < sim->sets; s++)
+        if (sim->set[s].role == SPH_ROLE_FLUID)
+            mass += count[s] * sim->set[s].mass;
+    return mass;
+}
+
 static void commit(sph_sim *sim)
 {
     const bool prime = sim->next.step == sim->now.step;
-    const double lost = sim->next.left > sim->now.left ? (double)(sim->next.left - sim->now.left) : 0;
-    sim->next.removed_mass += lost * (sim->sets ? sim->set[0].mass : 0);
+    if (sim->next.left != sim->now.left)
+        sim->next.removed_mass += fluid_mass(sim, &sim->buf[sim->cur], sim->now.count) -
+                                  fluid_mass(sim, &sim->buf[sim->dst], sim->next.count);
     sim->next.primed = true;
     sim->next.started |= !prime;
     sim->now = sim->next;

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* bench.c: speed and memory of one build: a dam break with Adami walls, fluid n x n, Wendland C2 at h/dx 1.2,
+   predictor-corrector. Prints rows `name,value,unit,target,ok`; bench.sh compiles it several ways and gathers them.
+
+     bench PREFIX TARGET_RATE [full]    TARGET_RATE: M particle-steps/s of whole steps; full: all rows, else the rate only */
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "port/posix.h"
+#include "sph/sph.h"
+
+#define PRECISION (SPH_DOUBLE ? "f64" : "f32")
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Times between the calls of the stage log. Each holds the hash that is made for the log; the pass "begin" does nothing
+   else, so its time is that of the hash. */
+typedef struct stages {
+    double last, force, hash;
+} stages;
+
+static void at_pass(void *ctx, uint64_t step, const char *pass, uint64_t hash)
+{
+    stages *s = ctx;
+    const double t = now();
+    (void)step, (void)hash;
+    if (strcmp(pass, "force") == 0)
+        s->force = t - s->last;
+    if (strcmp(pass, "begin") == 0)
+        s->hash = t - s->last;
+    s->last = now();
+}
+
+typedef struct tank {
+    sph_sim *sim;
+    void *arena;
+    size_t bytes;
+    uint32_t particles;
+} tank;
+
+static void check(sph_sim *sim, sph_status st, const char *what)
+{
+    if (st == SPH_OK)
+        return;
+    fprintf(stderr, "bench: %s: %s (%s)\n", what, sph_status_text(st), sim ? sph_last(sim)->what : "");
+    exit(1);
+}
+
+static tank fill(uint32_t n, port_posix *pool, stages *log)
+{
+    const double a = 1, dx = a / n, length = 1.5 * a, height = 1.2 * a, margin = 4 * dx;
+    sph_config c = sph_config_default();
+    tank t;
+    uint32_t set;
+    c.spacing = dx;
+    c.smoothing_length = 1.2 * dx;
+    c.gravity[1] = -9.81;
+    c.sound_speed = 45;
+    c.lo[0] = c.lo[1] = -margin;
+    c.hi[0] = length + margin;
+    c.hi[1] = height;
+    c.on_leave = SPH_REMOVE;
+    c.on_cross = SPH_PUT_BACK;
+    /* fluid, three layers on floor and two walls: what the scene has, and no more */
+    c.max_particles = n * n + 3 * (uint32_t)(length / dx + 1) + 6 * (uint32_t)(height / dx + 4) + 64;
+    if (pool) {
+        c.max_threads = pool->threads;
+        c.port = (sph_port)PORT_POSIX(pool);
+    }
+    if (log) {
+        c.stage_log = at_pass;
+        c.stage_ctx = log;
+    }
+    t.bytes = sph_arena_bytes(&c);
+    t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
+    check(NULL, t.arena ? sph_init(&t.sim, &c, t.arena, t.bytes, NULL) : SPH_ARENA_TOO_SMALL, "init");
+    const double lo[2] = {0, 0}, hi[2] = {a, a}, top[2] = {length, height};
+    sph_wall w = sph_wall_default();
+    check(t.sim, sph_add_fluid(t.sim, NULL, &set), "fluid");
+    check(t.sim, sph_add_box(t.sim, set, lo, hi, NULL), "box");
+    check(t.sim, sph_add_wall_box(t.sim, &w, lo, top, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1), true, NULL), "walls");
+    check(t.sim, sph_apply_hydrostatic(t.sim, set, a), "hydrostatic");
+    check(t.sim, sph_ready(t.sim), "ready");
+    t.particles = sph_count(t.sim);
+    return t;
+}
+
+/* seconds a step: the best of `repeats` groups of steps */
+static double best(tank *t, uint32_t steps, uint32_t repeats)
+{
+    double least = 1e300;
+    for (uint32_t k = 0; k < 3; k++)
+        check(t->sim, sph_step(t->sim), "warm-up");
+    for (uint32_t r = 0; r < repeats; r++) {
+        double from = now();
+        for (uint32_t k = 0; k < steps; k++)
+            check(t->sim, sph_step(t->sim), "step");
+        double per = (now() - from) / steps;
+        least = per < least ? per : least;
+    }
+    return least;
+}
+
+static void row(const char *prefix, const char *name, double value, const char *unit, double target, bool at_least)
+{
+    const bool ok = at_least ? value >= target : value <= target;
+    if (target > 0)
+        printf("%s%s,%.4g,%s,%s%g,%s\n", prefix, name, value, unit, at_least ? ">=" : "<=", target, ok ? "yes" : "no");
+    else
+        printf("%s%s,%.4g,%s,,\n", prefix, name, value, unit);
+    fflush(stdout);
+}
+
+/* a loop of multiply-adds of known length: what a figure from another machine can be scaled by */
+static double calibrate(void)
+{
+    double least = 1e300;
+    for (int r = 0; r < 5; r++) {
+        volatile double sink;
+        double x[8] = {1, 2, 3, 4, 5, 6, 7, 8}, from = now();
+        for (int i = 0; i < 20000000; i++)
+            for (int l = 0; l < 8; l++)
+                x[l] = x[l] * 0.999999 + 1e-6;
+        sink = x[0] + x[1] + x[2] + x[3] + x[4] + x[5] + x[6] + x[7];
+        (void)sink;
+        least = now() - from < least ? now() - from : least;
+    }
+    return 160e6 / least * 1e-6;
+}
+
+/* Whole step over force pass. Hashes for the stage log would lie between the passes, so whole steps are those of a tank
+   without a log, stepped in turns with one that has it; the least of each is taken. */
+static double step_over_force(void)
+{
+    double least_step = 1e300, least_force = 1e300, least_hash = 1e300;
+    stages log = {0, 0, 0};
+    tank plain = fill(316, NULL, NULL), logged = fill(316, NULL, &log);
+    best(&plain, 1, 1);
+    best(&logged, 1, 1);
+    for (int r = 0; r < 15; r++) {
+        double from = now();
+        check(plain.sim, sph_step(plain.sim), "step");
+        double step = now() - from;
+        log.last = now();
+        check(logged.sim, sph_step(logged.sim), "step");
+        least_step = step < least_step ? step : least_step;
+        least_force = log.force < least_force ? log.force : least_force;
+        least_hash = log.hash < least_hash ? log.hash : least_hash;
+    }
+    free(plain.arena);
+    free(logged.arena);
+    return least_step / (least_force - least_hash);
+}
+
+static void full(const char *prefix, double per_particle)
+{
+    char name[64];
+    tank small = fill(100, NULL, NULL), large = fill(1000, NULL, NULL);
+    const double s = best(&small, 20, 5) / small.particles, l = best(&large, 2, 3) / large.particles;
+    snprintf(name, sizeof name, "growth_10k_to_1M_%s", PRECISION);
+    row(prefix, name, l / s, "ratio", 1.3, false);
+    free(small.arena);
+    free(large.arena);
+    snprintf(name, sizeof name, "step_over_force_%s", PRECISION);
+    row(prefix, name, step_over_force(), "ratio", 1.35, false);
+    static port_posix pool;
+    if (port_posix_open(&pool, 2)) {
+        tank two = fill(316, &pool, NULL);
+        snprintf(name, sizeof name, "two_threads_%s", PRECISION);
+        row(prefix, name, per_particle / (best(&two, 5, 8) / two.particles), "ratio", 1.8, true);
+        free(two.arena);
+    }
+    port_posix_close(&pool);
+    row(prefix, "calibration", calibrate(), "M multiply-adds/s", 0, true);
+}
+
+int main(int argc, char **argv)
+{
+    char name[64];
+    if (argc < 3) {
+        fprintf(stderr, "usage: bench PREFIX TARGET_RATE [full]\n");
+        return 2;
+    }
+    tank t = fill(316, NULL, NULL);
+    const double step = best(&t, 5, 8);
+    snprintf(name, sizeof name, "step_2d_%s_100k", PRECISION);
+    row(argv[1], name, t.particles / step * 1e-6, "M particle-steps/s", strtod(argv[2], NULL), true);
+    if (argc > 3) {
+        snprintf(name, sizeof name, "memory_2d_%s_100k", PRECISION);
+        row(argv[1], name, (double)t.bytes / t.particles, "bytes/particle", SPH_DOUBLE ? 144 : 80, false);
+        free(t.arena);
+        full(argv[1], step / t.particles);
+    }
+    return 0;
+}

@@ -1,0 +1,35 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT. Copyright the sph authors.
+# lint.sh: cppcheck (suppressions: tests/cppcheck.txt) and clang-tidy (.clang-tidy), those that are installed, over every
+# source of kernel, port, scenes and tools.
+set -u
+BUILD=${BUILD:-build} CPPCHECK=${CPPCHECK:-cppcheck} CLANG_TIDY=${CLANG_TIDY:-clang-tidy}
+mkdir -p "$BUILD"
+inc="-I. -Isph -Iport -Iexamples -Iexamples/scenes -Itools -Itests"
+files=$(ls sph/*.c port/*.c examples/*.c examples/scenes/*.c tools/*.c 2>/dev/null)
+found=0 bad=0
+for tool in "$CPPCHECK" "$CLANG_TIDY"; do
+    command -v "$tool" >/dev/null 2>&1 || echo "lint: no ${tool}; as root: apt-get install -y --no-install-recommends $tool"
+done
+if command -v "$CPPCHECK" >/dev/null 2>&1; then
+    found=1
+    for b in "1 0" "2 0" "3 1"; do
+        # shellcheck disable=SC2086
+        "$CPPCHECK" --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
+            --suppressions-list=tests/cppcheck.txt -D__SSE2__ -DSPH_VECTOR_BYTES=0 -DFLT_EVAL_METHOD=0 \
+            -DSPH_DIM=${b% *} -DSPH_DOUBLE=${b#* } $inc $files || bad=1
+    done
+fi
+if command -v "$CLANG_TIDY" >/dev/null 2>&1; then
+    found=1
+    for b in "2 0" "3 1"; do
+        for f in $files; do
+            # shellcheck disable=SC2086
+            "$CLANG_TIDY" --quiet "$f" -- -std=c11 -ffp-contract=off -D_POSIX_C_SOURCE=200809L $inc \
+                -DSPH_DIM=${b% *} -DSPH_DOUBLE=${b#* } 2>"$BUILD/tidy.err" || { cat "$BUILD/tidy.err"; bad=1; }
+        done
+    done
+fi
+[ $found = 1 ] || exit 1
+[ $bad = 0 ] && echo "lint: clean"
+exit $bad

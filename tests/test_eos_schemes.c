@@ -1,0 +1,408 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* test_eos_schemes.c: equations of state, and the sums of every scheme against the printed equations, summed over all pairs
+   in double precision by the test itself; filters, diffusion and viscosity against what they must do. */
+#include "testing.h"
+
+#define N (SPH_DIM == 1 ? 40u : SPH_DIM == 2 ? 12u : 8u)
+#define DX 0.1
+#define PI 3.14159265358979323846
+
+static double grad(const sph_config *c, double r)
+{
+    double w, dw;
+    assert_int_equal(sph_kernel_value(c->kernel, r, c->smoothing_length, &w, &dw), SPH_OK);
+    return r > 0 ? dw / r : 0;
+}
+static double weight(const sph_config *c, double r)
+{
+    double w, dw;
+    assert_int_equal(sph_kernel_value(c->kernel, r, c->smoothing_length, &w, &dw), SPH_OK);
+    return w;
+}
+
+/* acceleration of particle i by the equations of sph.h, section 3 */
+static void printed_sum(const sph_config *c, const sph_particle *p, uint32_t n, uint32_t i, double *a, double *size)
+{
+    const double h = c->smoothing_length;
+    *size = 0;
+    for (int k = 0; k < SPH_DIM; k++)
+        a[k] = c->gravity[k];
+    for (uint32_t j = 0; j < n; j++) {
+        double r2 = 0, vr = 0, f, fm = 0, pi = 0;
+        for (int k = 0; k < SPH_DIM; k++) {
+            double d = p[i].x[k] - p[j].x[k];
+            r2 += d * d;
+            vr += d * (p[i].v[k] - p[j].v[k]);
+        }
+        const double g = grad(c, sqrt(r2)), m = p[j].mass, ri = p[i].rho, rj = p[j].rho, mean = 0.5 * (ri + rj);
+        double mu = vr / (r2 + 0.01 * h * h);
+        if (c->viscosity == SPH_ARTIFICIAL_APPROACHING && mu > 0)
+            mu = 0;
+        if (c->viscosity == SPH_ARTIFICIAL || c->viscosity == SPH_ARTIFICIAL_APPROACHING)
+            pi = -h / mean * (c->alpha * c->sound_speed + c->beta * h * fabs(mu)) * mu;
+        if (c->viscosity == SPH_MORRIS) /* dynamic viscosity nu rho_mean on both sides */
+            fm = m * 2 * c->nu / mean * g * r2 / (r2 + 0.01 * h * h);
+        if (c->scheme == SPH_STANDARD || c->scheme == SPH_STANDARD_WICK)
+            f = p[i].p / (ri * ri) + p[j].p / (rj * rj) + pi;
+        else
+            f = (c->scheme == SPH_DIRECT ? p[j].p - p[i].p : p[i].p + p[j].p) / (ri * rj) + pi;
+        for (int k = 0; k < SPH_DIM; k++) {
+            double t = -m * f * g * (p[i].x[k] - p[j].x[k]) + fm * (p[i].v[k] - p[j].v[k]);
+            a[k] += t;
+            *size += fabs(t);
+        }
+    }
+}
+
+static void accelerations_are_those_of_the_printed_equations(void **state)
+{
+    static sph_particle p[1024];
+    (void)state;
+    for (uint32_t scheme = 0; scheme < SPH_SCHEMES; scheme++)
+        for (uint32_t visc = 0; visc < SPH_VISCOSITIES; visc++) {
+            sph_config c = open_config(N * DX, DX);
+            uint32_t set;
+            c.scheme = scheme;
+            c.viscosity = visc;
+            c.kernel = (scheme + visc) % SPH_HAT;
+            c.alpha = 0.3;
+            c.beta = 0.6;
+            c.nu = 0.05;
+            c.gravity[SPH_DIM - 1] = -9.81;
+            sph_sim *sim = new_sim(&c);
+            must(sim, sph_add_fluid(sim, NULL, &set));
+            random_cloud(sim, set, N, DX, 0.2, 0.5, 10);
+            must(sim, sph_ready(sim));
+            const uint32_t n = sph_count(sim);
+            for (uint32_t i = 0; i < n; i++)
+                assert_int_equal(sph_get(sim, i, &p[i]), SPH_OK);
+            for (uint32_t i = 0; i < n; i += 7) {
+                double a[SPH_DIM], size;
+                printed_sum(&c, p, n, i, a, &size);
+                for (int k = 0; k < SPH_DIM; k++) /* pressures come from relative densities held to eps */
+                    close_to(p[i].a[k], a[k], 100 * EPS * size);
+            }
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
+static void pressures_follow_the_equations_of_state(void **state)
+{
+    static const double rho[] = {990, 1000, 1001, 1030};
+    (void)state;
+    for (uint32_t eos = 0; eos < SPH_EOSES; eos++)
+        for (int floor_ = 0; floor_ < 2; floor_++) {
+            sph_config c = open_config(1, DX);
+            uint32_t set;
+            double x[SPH_DIM] = {0};
+            c.eos = eos;
+            c.pressure_floor = floor_;
+            sph_sim *sim = new_sim(&c);
+            must(sim, sph_add_fluid(sim, NULL, &set));
+            for (int i = 0; i < 4; i++)
+                must(sim, sph_add_particle(sim, set, x, NULL, rho[i], NULL));
+            for (uint32_t i = 0; i < 4; i++) {
+                const double s = rho[i] / 1000, b = 1000.0 * 400;
+                double want = eos == SPH_TAIT        ? b / 7 * (pow(s, 7) - 1)
+                              : eos == SPH_TAIT_GRAY ? b * (pow(s, 7) - 1)
+                              : eos == SPH_LINEAR    ? 400 * (rho[i] - 1000)
+                                                     : 400 * rho[i];
+                want = floor_ && want < 0 ? 0 : want;
+                close_to(by_id(sim, i).p, want, 8 * EPS * b);
+                close_to(by_id(sim, i).rho, rho[i], EPS * 1000);
+            }
+        }
+}
+
+static void a_hydrostatic_start_has_the_weight_of_the_water_above(void **state)
+{
+    (void)state;
+    for (uint32_t eos = 0; eos < SPH_ISOTHERMAL; eos++) {
+        sph_config c = open_config(N * DX, DX);
+        uint32_t set;
+        double lo[SPH_DIM] = {0}, hi[SPH_DIM];
+        c.eos = eos;
+        c.gravity[SPH_DIM - 1] = -9.81;
+        for (int k = 0; k < SPH_DIM; k++)
+            hi[k] = 0.8;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_fluid(sim, NULL, &set));
+        must(sim, sph_add_box(sim, set, lo, hi, NULL));
+        must(sim, sph_apply_hydrostatic(sim, set, 0.8));
+        for (uint32_t i = 0; i < sph_count(sim); i++) {
+            sph_particle p = by_id(sim, i);
+            close_to(p.p, 1000 * 9.81 * (0.8 - p.x[SPH_DIM - 1]), 16 * EPS * 4e5 * 7);
+        }
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+/* sum over the lattice of -V r dW/dr / DIM: what a first derivative is multiplied by, 1 but for the quadrature error */
+static double lattice_slope(const sph_config *c)
+{
+    double sum = 0;
+    const int m = 5;
+    for (int a = -m; a <= m; a++)
+        for (int b = SPH_DIM > 1 ? -m : 0; b <= (SPH_DIM > 1 ? m : 0); b++)
+            for (int d = SPH_DIM > 2 ? -m : 0; d <= (SPH_DIM > 2 ? m : 0); d++) {
+                double r2 = (a * a + b * b + d * d) * DX * DX;
+                sum -= r2 * grad(c, sqrt(r2)) * pow(DX, SPH_DIM) / SPH_DIM;
+            }
+    return sum;
+}
+
+static void spread(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)ctx, (void)rho;
+    for (int k = 0; k < SPH_DIM; k++)
+        v[k] = 0.1 * (k + 1) * (x[k] - 0.5 * N * DX);
+}
+
+/* the particle nearest to the middle */
+static uint32_t middle(const sph_sim *sim)
+{
+    uint32_t best = 0;
+    double least = 1e300;
+    for (uint32_t i = 0; i < sph_count(sim); i++) {
+        sph_particle p;
+        double r2 = 0;
+        assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+        for (int k = 0; k < SPH_DIM; k++)
+            r2 += (p.x[k] - 0.5 * N * DX) * (p.x[k] - 0.5 * N * DX);
+        if (r2 < least)
+            least = r2, best = p.id;
+    }
+    return best;
+}
+
+static sph_sim *lattice(sph_config *c, sph_field_fn fn)
+{
+    uint32_t set;
+    double lo[SPH_DIM] = {0}, hi[SPH_DIM];
+    for (int k = 0; k < SPH_DIM; k++)
+        hi[k] = N * DX;
+    sph_sim *sim = new_sim(c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    must(sim, sph_add_box(sim, set, lo, hi, NULL));
+    if (fn)
+        must(sim, sph_apply_field(sim, set, fn, NULL));
+    return sim;
+}
+
+static void a_linear_velocity_gives_its_divergence(void **state)
+{
+    (void)state;
+    for (uint32_t scheme = SPH_STANDARD; scheme <= SPH_DIRECT; scheme++) {
+        sph_config c = open_config(N * DX, DX);
+        c.scheme = scheme;
+        c.viscosity = SPH_INVISCID;
+        c.dt = 1e-5;
+        sph_sim *sim = lattice(&c, spread);
+        const uint32_t id = middle(sim);
+        must(sim, sph_step(sim));
+        double div = 0;
+        for (int k = 0; k < SPH_DIM; k++)
+            div += 0.1 * (k + 1);
+        /* the density changes by less than 1e-5 of itself in the step, and so does the rate */
+        close_to((by_id(sim, id).rho - 1000) / c.dt, -1000 * div * lattice_slope(&c), 1000 * div * (SPH_DOUBLE ? 1e-4 : 2e-3));
+        close_to(lattice_slope(&c), 1, 0.05);
+    }
+}
+
+static void slope_of_density(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)ctx, (void)v;
+    *rho = 1000 * (1 + 1e-3 * (x[0] - 0.5 * N * DX));
+}
+static void a_linear_pressure_gives_its_gradient(void **state)
+{
+    (void)state;
+    for (uint32_t scheme = SPH_STANDARD; scheme <= SPH_DIRECT; scheme++) {
+        sph_config c = open_config(N * DX, DX);
+        c.scheme = scheme;
+        c.eos = SPH_LINEAR;
+        c.viscosity = SPH_INVISCID;
+        sph_sim *sim = lattice(&c, slope_of_density);
+        const uint32_t id = middle(sim);
+        must(sim, sph_ready(sim));
+        /* -grad p / rho = -c0^2 1e-3, times the lattice's slope; the density varies by 1e-3 over the support */
+        close_to(by_id(sim, id).a[0], -0.4 * lattice_slope(&c), 0.4 * 2e-3 + 400 * EPS);
+        for (int k = 1; k < SPH_DIM; k++)
+            close_to(by_id(sim, id).a[k], 0, 400 * EPS);
+    }
+}
+
+static void summed_density_is_the_sum(void **state)
+{
+    static sph_particle p[1024];
+    sph_config c = open_config(N * DX, DX);
+    uint32_t set;
+    (void)state;
+    c.density = SPH_SUMMATION;
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    random_cloud(sim, set, N, DX, 0.1, 0, 0);
+    must(sim, sph_ready(sim));
+    const uint32_t n = sph_count(sim);
+    for (uint32_t i = 0; i < n; i++)
+        assert_int_equal(sph_get(sim, i, &p[i]), SPH_OK);
+    for (uint32_t i = 0; i < n; i += 5) {
+        double sum = 0;
+        for (uint32_t j = 0; j < n; j++) {
+            double r2 = 0;
+            for (int k = 0; k < SPH_DIM; k++)
+                r2 += (p[i].x[k] - p[j].x[k]) * (p[i].x[k] - p[j].x[k]);
+            sum += p[j].mass * weight(&c, sqrt(r2));
+        }
+        close_to(p[i].rho, sum, 32 * EPS * 1000);
+    }
+}
+
+static void dense(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)ctx, (void)x, (void)v;
+    *rho = 1010;
+}
+static void the_shepard_filter_keeps_a_constant(void **state)
+{
+    sph_config c = open_config(N * DX, DX);
+    (void)state;
+    c.shepard_every = 1;
+    c.dt = 1e-9;
+    sph_sim *sim = lattice(&c, dense);
+    for (int k = 0; k < 3; k++)
+        must(sim, sph_step(sim));
+    for (uint32_t i = 0; i < sph_count(sim); i++) /* also at the free surface, where a plain sum would be half */
+        close_to(by_id(sim, i).rho, 1010, 64 * EPS * 1000);
+}
+
+static void bump(void *ctx, const double *x, double *v, double *rho)
+{
+    double r2 = 0;
+    (void)ctx, (void)v;
+    for (int k = 0; k < SPH_DIM; k++)
+        r2 += (x[k] - 0.5 * N * DX) * (x[k] - 0.5 * N * DX);
+    *rho = 1000 + 5 * exp(-r2 / (4 * DX * DX));
+}
+static void diffusion_lowers_a_bump_and_raises_its_foot(void **state)
+{
+    (void)state;
+    for (uint32_t d = SPH_MOLTENI; d <= SPH_HYDROSTATIC; d++)
+        for (uint32_t scheme = SPH_STANDARD; scheme <= SPH_WEAK; scheme++) {
+            sph_config c = open_config(N * DX, DX);
+            c.diffusion = d;
+            c.scheme = scheme;
+            c.dt = 1e-7; /* so that nothing else happens */
+            sph_sim *sim = lattice(&c, bump);
+            const uint32_t id = middle(sim);
+            const double before = by_id(sim, id).rho;
+            sph_totals t;
+            for (int k = 0; k < 10; k++)
+                must(sim, sph_step(sim));
+            const double after = by_id(sim, id).rho;
+            sph_get_totals(sim, &t);
+            assert_true(after < before);
+            assert_true(t.min_density >= 1000 * (1 - 4 * EPS));
+        }
+}
+
+static void waves(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)ctx, (void)rho;
+    v[0] = 0.3 * (x[0] - 0.5 * N * DX);
+}
+static void xsph_moves_a_particle_with_its_neighbours(void **state)
+{
+    sph_config c = open_config(N * DX, DX);
+    (void)state;
+    c.xsph = 0.5;
+    c.dt = SPH_DOUBLE ? 1e-6 : 1e-4;
+    sph_sim *sim = lattice(&c, waves);
+    must(sim, sph_ready(sim));
+    const double from = by_id(sim, 0).x[0], v = by_id(sim, 0).v[0];
+    double sum = 0;
+    sph_particle me = by_id(sim, 0), p;
+    for (uint32_t j = 0; j < sph_count(sim); j++) {
+        double r2 = 0;
+        assert_int_equal(sph_get(sim, j, &p), SPH_OK);
+        for (int k = 0; k < SPH_DIM; k++)
+            r2 += (p.x[k] - me.x[k]) * (p.x[k] - me.x[k]);
+        sum += c.xsph * p.mass / 1000 * (p.v[0] - me.v[0]) * weight(&c, sqrt(r2));
+    }
+    assert_true(fabs(sum) > 1e-3);
+    must(sim, sph_step(sim));
+    /* positions are held to a quantum: 3 N DX / 2^30 or / 2^52, with a margin for a rounding */
+    const double quantum = 4 * N * DX / (SPH_DOUBLE ? 0x1p51 : 0x1p29), moved = by_id(sim, 0).x[0] - from;
+    close_to(moved / c.dt, v + sum, quantum / c.dt + 1e-4 * fabs(sum));
+}
+
+#if SPH_DIM > 1
+static void shear(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)ctx, (void)rho;
+    v[1] = 1e-3 * sin(2 * PI * x[0] / (N * 2 * DX));
+}
+static double amplitude(const sph_sim *sim)
+{
+    double sum = 0, norm = 0;
+    for (uint32_t i = 0; i < sph_count(sim); i++) {
+        sph_particle p;
+        assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+        double s = sin(2 * PI * p.x[0] / (N * 2 * DX));
+        sum += p.v[1] * s;
+        norm += s * s;
+    }
+    return sum / norm;
+}
+/* The velocity v_y = U sin(k x) of a viscous fluid decays as exp(-nu k^2 t). On the lattice, which hardly moves (U is
+   small), Morris' sum has the rate sum V 2 nu (-g) r^2/(r^2 + 0.01 h^2) (1 - cos k x): both are checked, the second closely. */
+static void morris_viscosity_decays_a_shear_wave_at_the_exact_rate(void **state)
+{
+    sph_config c = periodic_config(N * 2 * DX, DX);
+    const double k = 2 * PI / (N * 2 * DX), h = c.smoothing_length;
+    double lattice_rate = 0;
+    const int m = 4;
+    (void)state;
+    c.viscosity = SPH_MORRIS;
+    c.nu = 0.1;
+    c.sound_speed = 5;
+    for (int a = -m; a <= m; a++)
+        for (int b = -m; b <= m; b++)
+            for (int d = SPH_DIM > 2 ? -m : 0; d <= (SPH_DIM > 2 ? m : 0); d++) {
+                double r2 = (a * a + b * b + d * d) * DX * DX;
+                lattice_rate -= pow(DX, SPH_DIM) * 2 * c.nu * grad(&c, sqrt(r2)) * r2 / (r2 + 0.01 * h * h) * (1 - cos(k * a * DX));
+            }
+    sph_sim *sim = new_sim(&c);
+    uint32_t set;
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    must(sim, sph_add_box(sim, set, c.lo, c.hi, NULL));
+    must(sim, sph_apply_field(sim, set, shear, NULL));
+    const double before = amplitude(sim), t = 0.1 / (c.nu * k * k);
+    close_to(before, 1e-3, 1e-7);
+    while (sph_time(sim) < t)
+        must(sim, sph_step(sim));
+    const double rate = -log(amplitude(sim) / before) / sph_time(sim);
+    print_message("decay rate over nu k^2: %.4f, lattice %.4f\n", rate / (c.nu * k * k), lattice_rate / (c.nu * k * k));
+    close_to(rate / lattice_rate, 1, 5e-3);
+    close_to(rate / (c.nu * k * k), 1, 0.06);
+}
+#endif
+
+int main(void)
+{
+    const struct CMUnitTest list[] = {
+        subject(accelerations_are_those_of_the_printed_equations),
+        subject(pressures_follow_the_equations_of_state),
+        subject(a_hydrostatic_start_has_the_weight_of_the_water_above),
+        subject(a_linear_velocity_gives_its_divergence),
+        subject(a_linear_pressure_gives_its_gradient),
+        subject(summed_density_is_the_sum),
+        subject(the_shepard_filter_keeps_a_constant),
+        subject(diffusion_lowers_a_bump_and_raises_its_foot),
+        subject(xsph_moves_a_particle_with_its_neighbours),
+#if SPH_DIM > 1
+        subject(morris_viscosity_decays_a_shear_wave_at_the_exact_rate),
+#endif
+    };
+    return run_subjects("eos_schemes", list);
+}

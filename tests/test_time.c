@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* test_time.c: the order of every integrator by halving the step, the speed of sound, and the limits of the step. */
+#include "testing.h"
+
+#define N 40u
+#define DX 0.05
+#define LENGTH (N * DX)
+#define PI 3.14159265358979323846
+
+static void wave(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)ctx, (void)rho;
+    v[0] = 0.02 * sin(2 * PI * x[0] / LENGTH);
+}
+
+static sph_sim *sound(uint32_t integrator, uint32_t eos, double dt)
+{
+    sph_config c = periodic_config(LENGTH, DX);
+    uint32_t set;
+    c.integrator = integrator;
+    c.eos = eos;
+    c.viscosity = SPH_INVISCID;
+    c.sound_speed = 10;
+    c.dt = dt;
+    if (SPH_DIM > 1)
+        c.hi[1] = 8 * DX;
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    must(sim, sph_add_box(sim, set, c.lo, c.hi, NULL));
+    must(sim, sph_apply_field(sim, set, wave, NULL));
+    return sim;
+}
+
+#if SPH_DOUBLE
+#define KEPT 640u
+/* displacements along x after `steps` steps of dt */
+static void run(uint32_t integrator, double dt, int steps, double *x)
+{
+    sph_sim *sim = sound(integrator, SPH_TAIT, dt);
+    sph_particle p;
+    for (int k = 0; k < steps; k++)
+        must(sim, sph_step(sim));
+    assert_true(sph_count(sim) <= KEPT);
+    for (uint32_t i = 0; i < sph_count(sim); i++) {
+        assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+        x[p.id] = p.x[0];
+    }
+    assert_int_equal(free_sims(NULL), 0);
+}
+
+static void every_integrator_is_of_second_order(void **state)
+{
+    static double x[3][KEPT];
+    (void)state;
+    for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
+        double e1 = 0, e2 = 0;
+        for (int k = 0; k < 3; k++)
+            run(i, 1e-3 / (1 << k), 40 << k, x[k]);
+        for (uint32_t j = 0; j < N; j++) {
+            e1 = fmax(e1, fabs(x[0][j] - x[1][j]));
+            e2 = fmax(e2, fabs(x[1][j] - x[2][j]));
+        }
+        const double order = log2(e1 / e2);
+        print_message("integrator %u: order %.2f, change %.1e then %.1e\n", i, order, e1, e2);
+        assert_true(e2 > 1e-13);
+        assert_true(order > 1.8 && order < 2.6);
+    }
+}
+#endif
+
+static double amplitude(const sph_sim *sim)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < sph_count(sim); i++) {
+        sph_particle p;
+        assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+        sum += p.v[0] * sin(2 * PI * p.x[0] / LENGTH);
+    }
+    return sum;
+}
+
+/* On the lattice both equations multiply a first derivative by A(k) = sum V (-g) x sin(k x)/k, so a standing wave turns with
+   the speed A c0: what is left of the test is the amplitude, U/c0 = 2e-3, and the step, (w dt)^2/24 = 4e-5. */
+static double lattice_factor(void)
+{
+    const double k = 2 * PI / LENGTH, h = 1.2 * DX;
+    double sum = 0;
+    for (int a = -4; a <= 4; a++)
+        for (int b = SPH_DIM > 1 ? -4 : 0; b <= (SPH_DIM > 1 ? 4 : 0); b++) {
+            double r = DX * sqrt(a * a + b * b), w, dw;
+            assert_int_equal(sph_kernel_value(SPH_WENDLAND_C2, r, h, &w, &dw), SPH_OK);
+            if (r > 0)
+                sum -= pow(DX, SPH_DIM) * dw / r * (a * DX) * sin(k * a * DX) / k;
+        }
+    return sum;
+}
+
+/* v = U sin(k x) cos(w t) turns at w t = pi/2, 3 pi/2: half a period lies between two turns */
+static double measured_speed(uint32_t eos, double c_true)
+{
+    const double dt = 0.02 * LENGTH / c_true / 4;
+    sph_sim *sim = sound(SPH_KICK_DRIFT_KICK, eos, dt);
+    double before = amplitude(sim), turn[2] = {0, 0};
+    int found = 0;
+    for (int k = 0; k < 400 && found < 2; k++) {
+        must(sim, sph_step(sim));
+        double a = amplitude(sim);
+        if (a * before < 0)
+            turn[found++] = sph_time(sim) - dt * fabs(a) / (fabs(a) + fabs(before));
+        before = a;
+    }
+    assert_int_equal(found, 2);
+    return LENGTH / (2 * (turn[1] - turn[0]));
+}
+
+static void sound_travels_at_the_speed_of_the_equation_of_state(void **state)
+{
+    static const double factor[SPH_ISOTHERMAL] = {1, 2.6457513110645907, 1};
+    (void)state;
+    for (uint32_t eos = 0; eos < SPH_ISOTHERMAL; eos++) {
+        double c = measured_speed(eos, 10 * factor[eos]);
+        print_message("equation of state %u: sound at %.4f c0, lattice %.4f\n", eos, c / 10, lattice_factor() * factor[eos]);
+        close_to(c / (10 * factor[eos]), lattice_factor(), 0.004);
+        close_to(lattice_factor(), 1, 0.05);
+    }
+}
+
+static void the_limits_of_the_step_are_the_printed_ones(void **state)
+{
+    sph_config c = open_config(1, DX);
+    uint32_t set;
+    double lo[SPH_DIM] = {0}, hi[SPH_DIM];
+    sph_step_info info;
+    (void)state;
+    for (int k = 0; k < SPH_DIM; k++)
+        hi[k] = 0.5;
+    c.gravity[0] = -9.81;
+    c.alpha = 0.1;
+    c.dt_max = 0.5;
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    must(sim, sph_add_box(sim, set, lo, hi, NULL));
+    must(sim, sph_ready(sim));
+    sph_get_step(sim, &info);
+    const double h = c.smoothing_length, nu = 0.1 * 20 * h / (2 * (SPH_DIM + 2));
+    close_to(info.limit_dt[SPH_LIMIT_COURANT], 0.25 * h / 20, 1e-12);
+    close_to(info.limit_dt[SPH_LIMIT_VISCOUS], 0.125 * h * h / nu, 1e-12);
+    close_to(info.limit_dt[SPH_LIMIT_FORCE], 0.25 * sqrt(h / 9.81), 1e-6);
+    close_to(info.limit_dt[SPH_LIMIT_GRAVITY], 0.5 * h / (20 + sqrt(9.81 * h)), 1e-12);
+    assert_true(info.limit_dt[SPH_LIMIT_CEILING] == 0.5);
+    must(sim, sph_step(sim));
+    sph_get_step(sim, &info);
+    assert_int_equal(info.limit, SPH_LIMIT_COURANT);
+    close_to(info.dt, 0.25 * h / 20, 1e-12);
+    close_to(sph_time(sim), info.dt, 1e-15);
+}
+
+static void a_falling_body_falls_exactly(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
+        sph_config c = open_config(1, DX);
+        uint32_t set;
+        double x[SPH_DIM] = {0}, v[SPH_DIM] = {0};
+        c.gravity[0] = -9.81;
+        c.integrator = i;
+        c.dt = 1e-3;
+        v[0] = 1;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_fluid(sim, NULL, &set));
+        must(sim, sph_add_particle(sim, set, x, v, 0, NULL));
+        for (int k = 0; k < 50; k++)
+            must(sim, sph_step(sim));
+        const double t = sph_time(sim);
+        close_to(t, 0.05, 1e-15);
+        /* a constant acceleration is exact at second order; each step rounds position (to a quantum) and velocity.
+           Leap-frog's velocity is half a step behind its position. */
+        close_to(by_id(sim, 0).x[0], t - 0.5 * 9.81 * t * t, 50 * (8 * EPS * 0.05 + 4e-9 * (SPH_DOUBLE ? 1e-6 : 1)));
+        close_to(by_id(sim, 0).v[0], 1 - 9.81 * (i == SPH_LEAP_FROG ? t + 0.5e-3 : t), 50 * 2 * EPS);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest list[] = {
+#if SPH_DOUBLE
+        subject(every_integrator_is_of_second_order),
+#endif
+        subject(sound_travels_at_the_speed_of_the_equation_of_state),
+        subject(the_limits_of_the_step_are_the_printed_ones),
+        subject(a_falling_body_falls_exactly),
+    };
+    return run_subjects("time", list);
+}
