@@ -5,7 +5,7 @@
 #include "scene.h"
 #if SPH_DIM == 2
 
-enum { A = SCENE_COMMON, N2, N, LENGTH, HEIGHT, GRAVITY, SOUND, START, PARAMS };
+enum { A = SCENE_COMMON, N2, N, LENGTH, HEIGHT, GRAVITY, SOUND, START, AWAY, PARAMS };
 
 static const scene_param param[PARAMS] = {
     SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 1),
@@ -17,6 +17,7 @@ static const scene_param param[PARAMS] = {
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
     {"sound", "sqrt(g H)", "sound speed, H the column's height", 14.142135623730951, 2, 1000, SCENE_NUMBER},
     {"start", "-", "pressure at the start: uniform hydrostatic released", SCENE_RELEASED, 0, 2, SCENE_CHOICE},
+    {"away", "tank lengths", "distance of the tank's corner from the origin, along both axes", 0, -1e6, 1e6, SCENE_NUMBER},
 };
 
 static double spacing(const double *p) { return p[A] / p[N]; }
@@ -24,22 +25,27 @@ static double sound(const double *p) { return p[SOUND] * __builtin_sqrt(p[GRAVIT
 /* sqrt(n2 g/a): what makes a time into T */
 static double rate(const double *p) { return __builtin_sqrt(p[N2] * p[GRAVITY] / p[A]); }
 
-static void tank(const double *p, double *hi)
+static void tank(const double *p, double *lo, double *hi)
 {
     double length = p[LENGTH] > 0 ? p[LENGTH] : p[N2] > 1 ? 14 : 6;
     double height = p[HEIGHT] > 0 ? p[HEIGHT] : 1.5 * p[N2];
-    hi[0] = (length < 1 ? 1 : length) * p[A];
-    hi[1] = (height < p[N2] ? p[N2] : height) * p[A];
+    const double size[2] = {(length < 1 ? 1 : length) * p[A], (height < p[N2] ? p[N2] : height) * p[A]};
+    for (int k = 0; k < 2; k++) {
+        lo[k] = p[AWAY] * size[0];
+        hi[k] = lo[k] + size[k];
+    }
 }
 
 static void configure(const double *p, sph_config *c)
 {
-    const double lo[2] = {0, 0}, column[2] = {p[A], p[N2] * p[A]}, dx = spacing(p), m = scene_margin(p, dx);
-    double hi[2];
-    tank(p, hi);
+    const double dx = spacing(p), m = scene_margin(p, dx);
+    double lo[2], hi[2];
+    tank(p, lo, hi);
+    const double column[2] = {lo[0] + p[A], lo[1] + p[N2] * p[A]};
     *c = scene_config(p, dx, 1000, sound(p));
     c->gravity[1] = -p[GRAVITY];
-    c->lo[0] = c->lo[1] = -m;
+    c->lo[0] = lo[0] - m;
+    c->lo[1] = lo[1] - m;
     c->hi[0] = hi[0] + m;
     c->hi[1] = hi[1] + m;
     c->max_particles = scene_capacity(scene_box_count(lo, column, dx) +
@@ -52,24 +58,26 @@ static void configure(const double *p, sph_config *c)
 static void released(void *ctx, const double *x, double *v, double *rho)
 {
     const double *p = ctx, h = p[N2] * p[A];
-    double sum = 0;
+    double lo[2], hi[2], sum = 0;
     (void)v;
+    tank(p, lo, hi);
+    const double y[2] = {x[0] - lo[0], x[1] - lo[1]};
     for (int i = 0; i < TERMS; i++) {
         double k = (i + 0.5) * SCENE_PI / h;
-        double inward = sph_exp(k * (x[0] - p[A])) * (1 + sph_exp(-2 * k * x[0])) / (1 + sph_exp(-2 * k * p[A]));
-        sum += 2 / (h * k * k) * sph_cos(k * x[1]) * inward;
+        double inward = sph_exp(k * (y[0] - p[A])) * (1 + sph_exp(-2 * k * y[0])) / (1 + sph_exp(-2 * k * p[A]));
+        sum += 2 / (h * k * k) * sph_cos(k * y[1]) * inward;
     }
-    double pressure = 1000 * p[GRAVITY] * (h - x[1] - sum);
+    double pressure = 1000 * p[GRAVITY] * (h - y[1] - sum);
     *rho = scene_density(p, pressure > 0 ? pressure : 0, 1000, sound(p));
 }
 
 static sph_status build(sph_sim *sim, const double *p)
 {
-    const double lo[2] = {0, 0}, column[2] = {p[A], p[N2] * p[A]};
-    double hi[2], q[PARAMS];
+    double lo[2], hi[2], q[PARAMS];
     uint32_t water;
     sph_status st;
-    tank(p, hi);
+    tank(p, lo, hi);
+    const double column[2] = {lo[0] + p[A], lo[1] + p[N2] * p[A]};
     for (int i = 0; i < PARAMS; i++)
         q[i] = p[i]; /* the field's context is not const */
     if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, column, NULL)) != SPH_OK)
@@ -91,13 +99,14 @@ static void history(const sph_sim *sim, const double *p, double *row)
 {
     sph_totals o;
     /* a support off the closed end, where the gauge sees water on both sides of its line */
-    const double at[2] = {sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * spacing(p), 0};
-    double back, front, height = 0;
+    double lo[2], hi[2], back, front, height = 0;
+    tank(p, lo, hi);
+    const double at[2] = {lo[0] + sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * spacing(p), 0};
     sph_get_totals(sim, &o);
     sph_extent(sim, 0, &back, &front);
     sph_gauge(sim, at, 1, &height);
-    const double values[] = {sph_time(sim), sph_time(sim) * rate(p), (front + 0.5 * spacing(p)) / p[A],
-                             height / (p[N2] * p[A]), o.kinetic, o.potential, o.internal, o.wall_work, o.dissipated,
+    const double values[] = {sph_time(sim), sph_time(sim) * rate(p), (front - lo[0] + 0.5 * spacing(p)) / p[A],
+                             (height - lo[1]) / (p[N2] * p[A]), o.kinetic, o.potential, o.internal, o.wall_work, o.dissipated,
                              o.diffused, o.mass, o.fluid};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];
