@@ -6,7 +6,8 @@ set -u
 BUILD=${BUILD:-build} CPPCHECK=${CPPCHECK:-cppcheck} CLANG_TIDY=${CLANG_TIDY:-clang-tidy}
 mkdir -p "$BUILD"
 inc="-I. -Isph -Iport -Iexamples -Iexamples/scenes -Itools -Itests"
-files=$(ls sph/*.c port/*.c examples/*.c examples/scenes/*.c tools/*.c 2>/dev/null)
+files=$(ls sph/*.c port/*.c examples/scenes/*.c tools/*.c 2>/dev/null)
+plane=$(ls examples/*.c 2>/dev/null) # programs of the 2-D build
 found=0 bad=0
 for tool in "$CPPCHECK" "$CLANG_TIDY"; do
     command -v "$tool" >/dev/null 2>&1 || echo "lint: no ${tool}; as root: apt-get install -y --no-install-recommends $tool"
@@ -17,13 +18,13 @@ if command -v "$CPPCHECK" >/dev/null 2>&1; then
         # shellcheck disable=SC2086
         "$CPPCHECK" --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
             --suppressions-list=tests/cppcheck.txt -D__SSE2__ -DSPH_VECTOR_BYTES=0 -DFLT_EVAL_METHOD=0 \
-            -DSPH_DIM=${b% *} -DSPH_DOUBLE=${b#* } $inc $files || bad=1
+            -DSPH_DIM=${b% *} -DSPH_DOUBLE=${b#* } $inc $files $([ "${b% *}" = 2 ] && echo "$plane") || bad=1
     done
 fi
 if command -v "$CLANG_TIDY" >/dev/null 2>&1; then
     found=1
     for b in "2 0" "3 1"; do
-        for f in $files; do
+        for f in $files $([ "${b% *}" = 2 ] && echo "$plane"); do
             # shellcheck disable=SC2086
             "$CLANG_TIDY" --quiet "$f" -- -std=c11 -ffp-contract=off -D_POSIX_C_SOURCE=200809L $inc \
                 -DSPH_DIM=${b% *} -DSPH_DOUBLE=${b#* } 2>"$BUILD/tidy.err" || { cat "$BUILD/tidy.err"; bad=1; }

@@ -7,6 +7,11 @@
 
 /* ---- no allocation: the allocators of this program count what the library asks for ---- */
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1 /* as gcc says it */
+#endif
+#endif
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #define COUNT_ALLOCATIONS 1
 static long allocations;

@@ -19,6 +19,12 @@
 #include "sph/sph.h"
 
 #define UNUSED __attribute__((unused))
+
+/* as doubles: the macros of math.h are floats, and -Wdouble-promotion minds */
+#undef NAN
+#undef INFINITY
+#define NAN __builtin_nan("")
+#define INFINITY __builtin_inf()
 #define EPS (SPH_DOUBLE ? 2.220446049250313e-16 : 1.1920929e-7) /* of sph_real */
 
 #define GUARD 256u
