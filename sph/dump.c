@@ -539,7 +539,7 @@ static bool move_array(stream *s, const sph_sim *sim, const column *c, uint32_t 
                 encode_pressure(s->piece, sim, i, m);
             if (!move_payload(s, m * size))
                 return false;
-            if (s->source)
+            if (s->source && c->array)
                 decode(s->piece, c->array[k], i, m, size);
         }
     return move_crc(s, c->name);

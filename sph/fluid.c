@@ -18,7 +18,7 @@
 /* the choices that a pair formula depends on; constants in the fast paths */
 typedef struct choice {
     uint32_t kernel, scheme, viscosity, diffusion;
-    bool xsph, books;
+    bool beta, xsph, books;
 } choice;
 
 typedef sph_factors factors;
@@ -178,7 +178,10 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         if (c->viscosity == SPH_MORRIS) {
             fm = mg * r2 * inv * f->morris;
         } else {
-            visc = mu * (f->av_alpha + f->av_beta * ((h->rho + rho) * v_abs(mu))) * mg;
+            vreal strength = v_set(f->av_alpha);
+            if (c->beta)
+                strength = strength + f->av_beta * ((h->rho + rho) * v_abs(mu));
+            visc = mu * strength * mg;
             force = force - visc;
         }
         mu = v_where(v_less(q, v_set(f->reach)), v_abs(mu));
@@ -268,7 +271,7 @@ static __attribute__((noinline)) void force_any(const choice *c, const factors *
 #define SPH_FAST_FN(name, kernel, visc, diff)                                                               \
     static __attribute__((noinline)) void force_##name(const factors *f, sph_thread *t, uint32_t homes)    \
     {                                                                                                       \
-        static const choice c = {kernel, SPH_STANDARD, visc, diff, false, false};                           \
+        static const choice c = {kernel, SPH_STANDARD, visc, diff, false, false, false};                           \
         const factors own = *f;                                                                             \
         for (uint32_t h = 0; h < homes; h++)                                                                \
             force_home(&c, &own, t, h, false);                                                              \
@@ -283,7 +286,7 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
 {
     const sph_config *c = &sim->cfg;
 #if SPH_WITH_FAST_PATHS
-    if (role == SPH_ROLE_FLUID && c->scheme == SPH_STANDARD && c->xsph == 0 && !c->books) {
+    if (role == SPH_ROLE_FLUID && c->scheme == SPH_STANDARD && c->beta == 0 && c->xsph == 0 && !c->books) {
 #define SPH_FAST_TRY(name, k, visc, diff)                                                                   \
     if (c->kernel == (k) && c->viscosity == (visc) && c->diffusion == (diff)) {                             \
         force_##name(&sim->fac, t, homes);                                                                  \
@@ -293,7 +296,7 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
 #undef SPH_FAST_TRY
     }
 #endif
-    const choice ch = {c->kernel, c->scheme, c->viscosity, c->diffusion, c->xsph != 0, c->books};
+    const choice ch = {c->kernel, c->scheme, c->viscosity, c->diffusion, c->beta != 0, c->xsph != 0, c->books};
     for (uint32_t h = 0; h < homes; h++) {
         if (role != SPH_ROLE_FLUID && sim->set[t->home_set[h]].role != SPH_ROLE_FLUID)
             continue;

@@ -278,7 +278,7 @@ static const char *probe_arithmetic(void)
 
 sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t bytes, sph_report *report)
 {
-    sph_report local;
+    sph_report local = {SPH_OK, "", "", "", 0, SPH_NO_PARTICLE};
     sph_report *r = report ? report : &local;
     *r = (sph_report){SPH_OK, "", "", "", 0, SPH_NO_PARTICLE};
     if (!out) {
@@ -354,8 +354,9 @@ sph_status sph_reconfigure(sph_sim *sim, const sph_config *cfg)
         return sph_error(sim, SPH_BAD_CONFIG, "configuration",
                          "unchanged but for gravity, damping, dt and hooks", 0, SPH_NO_PARTICLE);
     uint32_t threads = sim->cfg.max_threads;
-    bool same_gravity = memcmp(sim->cfg.gravity, cfg->gravity, sizeof cfg->gravity) == 0 &&
-                        sim->cfg.body_force == cfg->body_force;
+    bool same_gravity = sim->cfg.body_force == cfg->body_force;
+    for (int k = 0; k < SPH_DIM; k++)
+        same_gravity &= !(sim->cfg.gravity[k] < cfg->gravity[k]) && !(sim->cfg.gravity[k] > cfg->gravity[k]);
     sim->cfg = *cfg;
     sim->cfg.max_threads = threads;
     sph_make_factors(sim);

@@ -716,8 +716,10 @@ sph_status sph_add_wall_segment(sph_sim *sim, const sph_wall *wall, const double
     sph_status st = check_wall(sim, wall, "sph_add_wall_segment");
     if (st)
         return st;
-    if (!a || !b || (st = check_vector(sim, "a", a)) != SPH_OK || (st = check_vector(sim, "b", b)) != SPH_OK)
-        return bad(sim, "a, b", "two finite points", 0);
+    if (!a || !b)
+        return bad(sim, "a, b", "two points", 0);
+    if ((st = check_vector(sim, "a", a)) != SPH_OK || (st = check_vector(sim, "b", b)) != SPH_OK)
+        return st;
     double d[1][2] = {{b[0] - a[0], b[1] - a[1]}};
     double len[1] = {__builtin_sqrt(d[0][0] * d[0][0] + d[0][1] * d[0][1])};
     if (!(len[0] > 0.5 * sim->cfg.spacing))

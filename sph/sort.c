@@ -142,8 +142,8 @@ static void mend_block(const sph_sim *sim, const advance *a, uint32_t i, uint32_
         if (o->gone[j])
             continue;
         for (uint32_t k = 0; k < SPH_DIM; k++) {
-            q[k] = o->pos[k][j];
-            v[k] = o->vel[k][j];
+            q[k] = o->pos[k][j]; // NOLINT(clang-analyzer-core.uninitialized.Assign): n > 0, filled by advance_block
+            v[k] = all ? o->vel[k][j] : 0; /* the count does not ask for velocities */
             double u = (double)b->vel[k][i + j] * (double)a->drift / (sim->length[k] / sim->ncell[k]);
             far = !(sph_abs(u) <= far) ? sph_abs(u) : far;
         }

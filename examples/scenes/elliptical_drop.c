@@ -8,7 +8,7 @@
 enum { RADIUS = SCENE_COMMON, N, STRAIN, SOUND, DURATION, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 1, 0, 0),
+    SCENE_COMMON_PARAMS(SPH_QUINTIC, 1.5, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 1, 0, 0),
     {"radius", "m", "radius of the disc", 1, 1e-4, 1e4, SCENE_NUMBER},
     {"n", "-", "particles in the radius", 40, 4, 4000, SCENE_WHOLE},
     {"strain", "1/s", "strain rate s at the start", 100, 1e-6, 1e6, SCENE_NUMBER},
