@@ -61,7 +61,8 @@ SPH_INLINE void load_columns(const filling *f, const image *im, const sph_set *s
     /* a row has about SPH_STRIDE particles; copying so many without asking saves a branch that would be mispredicted */
     for (uint32_t from = 0; from < n; from += SPH_STRIDE)
         SPH_UNROLL
-        for (uint32_t j = from; j < from + SPH_STRIDE; j += SPH_W) {
+        for (uint32_t l = 0; l < SPH_STRIDE; l += SPH_W) {
+            const uint32_t j = from + l;
             SPH_UNROLL
             for (uint32_t k = 0; k < SPH_DIM; k++) {
                 vreal v = wall ? v_set((sph_real)f->sim->next.group[set->group].vel[k]) : v_load(f->b->vel[k] + s + j);

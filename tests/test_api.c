@@ -393,7 +393,7 @@ static void walls_check_their_arguments(void **state)
 #if SPH_DIM == 2
     const double a[2] = {0, 0}, b[2] = {0.01, 0}, n[2] = {NAN, 0};
     arg_refused(sim, sph_add_wall_segment(sim, &w, NULL, b, NULL), "a, b");
-    arg_refused(sim, sph_add_wall_segment(sim, &w, a, n, NULL), "a, b");
+    arg_refused(sim, sph_add_wall_segment(sim, &w, a, n, NULL), "b");
     arg_refused(sim, sph_add_wall_segment(sim, &w, a, b, NULL), "b");
 #elif SPH_DIM == 3
     const double o[3] = {0, 0, 0}, e1[3] = {1, 0, 0}, e2[3] = {1, 1, 0}, z[3] = {0, 0, 0};
