@@ -6,7 +6,7 @@
      weak        drho_i += rho_i (m_j/rho_j) vr g           a_i -= m_j (p_i + p_j)/(rho_i rho_j) g r_ij - m_j Pi g r_ij
      direct      drho_i as weak                             a_i -= m_j (p_j - p_i)/(rho_i rho_j) g r_ij - m_j Pi g r_ij
      artificial  Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu,  mu = vr/(r^2 + 0.01 h^2)        (Gray 2001 eq 2.18)
-     Morris      a_i += m_j 2 nu rho_mean.. : m_j (2 nu/rho_mean) mu_r g r^2 v_ij/(r^2 + 0.01 h^2)  (Morris et al. 1997)
+     Morris      a_i += m_j 4 nu/(rho_i + rho_j) (g r^2)/(r^2 + 0.01 h^2) v_ij                     (Morris et al. 1997)
      diffusion   drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (r_ji . grad W)/(r^2 + 0.01 h^2)
      XSPH        u_i += xsph (m_j/rho_mean) (v_j - v_i) W   (Gray 2001 eq 2.22; not with walls, as he says)
 

@@ -29,7 +29,7 @@ void sph_force_walls(const sph_sim *sim, sph_thread *t, uint32_t home);
 /* policy for particles found inside a wall; called for the particles of one chunk after they moved */
 #define sph_cross_walls SPH_NAME(cross_walls_)
 void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t);
-/* displaces the groups that move to time t; vel_dt: for the acceleration of walls */
+/* displaces the groups that move to where they are at time t, and removes those whose time has come */
 #define sph_move_groups SPH_NAME(move_groups_)
 sph_status sph_move_groups(sph_sim *sim, double t);
 

@@ -420,9 +420,11 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
 
 /* Part of a step: does chunks until about `budget` work units are spent (one unit: one candidate pair, or one particle
    in a local pass), then returns SPH_NOT_DONE; SPH_OK when the step is complete. Until then the state that can be
-   read is that of the step's beginning. The last chunk may pass the budget by at most
-   sph_usage.cell_particles * 3^DIM * 16 * cell_particles units. The work of a whole step is at most
-   E * n * (3^DIM * c) + 8 n + cells for E sweeps, n particles and at most c particles in a cell. */
+   read is that of the step's beginning. With n particles and at most c in a cell, the last chunks (one a thread) may pass
+   the budget by at most threads * max(32 (3^DIM c^2 + 1), n): 32 cells of a sweep, or a range of the sort, which is all
+   particles in the worst case. A whole step is at most E (3^DIM c n + cells + 32) + 16 n units; E counts its sweeps: 1 for
+   the forces (2 for all integrators but the predictor-corrector), as many again with Adami walls, 1 each for the Shepard
+   filter and summation (2 with Runge-Kutta). Passes without chunks (starting a sort, walls that move) are not counted. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
 /* Gives up a step that was begun in slices. */

@@ -254,6 +254,9 @@ static void the_arena_report_adds_up(void **state)
     assert_true(u.particles == sph_count(sim) && u.max_particles == c.max_particles);
     assert_true(u.cell_particles >= 1 && u.cell_particles <= u.particles);
     assert_true(u.step_work > u.particles && u.sets == 1 && u.groups == 0 && u.cells > 1);
+    /* the bound that sph_step_slice states, for two sweeps (forces, filter) */
+    const uint64_t around = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27;
+    assert_true(u.step_work <= 2 * (around * u.cell_particles * u.particles + u.cells + 32) + 16u * (uint64_t)u.particles);
 }
 
 /* a static arena by the constant expression, as a bare machine has it */

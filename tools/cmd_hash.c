@@ -63,25 +63,10 @@ static uint64_t hash_dump(const dump_file *d)
     return d->full ? hash_state(d, h) : mix(h, bits(d, "state", "time", 0, 0));
 }
 
-int cmd_hash(int argc, char **argv)
+static bool hash_one(const dump_file *d, const char *name)
 {
-    static const char *const known[] = {NULL};
-    int result = HOST_FINE;
-    host_command("hash");
-    if (host_help(argc, argv, help))
-        return HOST_FINE;
-    int files = host_known_options(argc, argv, known);
-    if (files < 0)
-        return HOST_USAGE;
-    if (files == 0)
-        return host_usage("give at least one dump");
-    for (int i = 1; i <= files; i++) {
-        dump_file d;
-        if (dump_open(&d, argv[i])) {
-            printf("%016llx  %s\n", (unsigned long long)hash_dump(&d), argv[i]);
-            dump_close(&d);
-        } else
-            result = HOST_NO;
-    }
-    return result;
+    printf("%016llx  %s\n", (unsigned long long)hash_dump(d), name);
+    return true;
 }
+
+int cmd_hash(int argc, char **argv) { return dump_each(argc, argv, "hash", help, hash_one); }

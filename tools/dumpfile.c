@@ -489,3 +489,28 @@ bool dump_check(const dump_file *d)
     }
     return fine;
 }
+
+int dump_each(int argc, char **argv, const char *command, const char *help, bool (*each)(const dump_file *d, const char *name))
+{
+    static const char *const known[] = {NULL};
+    int result = HOST_FINE;
+    host_command(command);
+    if (host_help(argc, argv, help))
+        return HOST_FINE;
+    int files = host_known_options(argc, argv, known);
+    if (files < 0)
+        return HOST_USAGE;
+    if (files == 0)
+        return host_usage("give at least one dump");
+    for (int i = 1; i <= files; i++) {
+        dump_file d;
+        if (!dump_open(&d, argv[i])) {
+            result = HOST_NO;
+            continue;
+        }
+        if (!each(&d, argv[i]))
+            result = HOST_NO;
+        dump_close(&d);
+    }
+    return result;
+}

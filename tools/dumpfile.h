@@ -38,6 +38,8 @@ typedef struct dump_file {
 /* Reads, checks every checksum and everything that later calls rely on. False after a message that says why. */
 bool dump_open(dump_file *d, const char *name);
 void dump_close(dump_file *d);
+/* What info, verify and hash share: reads the dumps that a command was given and calls each(dump, name); the exit code. */
+int dump_each(int argc, char **argv, const char *command, const char *help, bool (*each)(const dump_file *d, const char *name));
 /* What a restore would ask besides: ids once each, finite values, positions inside. False after a message. */
 bool dump_check(const dump_file *d);
 
