@@ -80,6 +80,7 @@ scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests
+.PHONY: fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
@@ -174,6 +175,31 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 
 bits:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
+
+# ---- fuzzing: each target takes a string of bytes; its first byte chooses the build (tests/fuzz/entry.c) ----
+
+FUZZ_TARGETS := config particles walls dumps
+FUZZ_SECONDS ?= 60
+fuzz_obj := $(foreach b,1d 2f 3d,$(patsubst %.c,$(BUILD)/obj/$(b)/%.o,$(filter-out %/entry.c %/replay.c,$(wildcard tests/fuzz/*.c))))
+fuzz_lib := $(foreach b,1d 2f 3d,$(BUILD)/libsph$(b).a)
+$(BUILD)/obj/fuzz_%.o: tests/fuzz/entry.c
+	$(say) cc "$< ($*)"
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(ALL_CFLAGS) $(HOST_CFLAGS) -DFUZZ_TARGET=$* -MMD -MP -c $< -o $@
+$(BUILD)/fuzz_%: $(BUILD)/obj/fuzz_%.o $(fuzz_obj) $(fuzz_lib)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) -fsanitize=fuzzer $^ -o $@ -lm
+$(BUILD)/replay_%: $(BUILD)/obj/fuzz_%.o $(BUILD)/obj/tests/fuzz/replay.o $(fuzz_obj) $(fuzz_lib)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
+fuzz-programs: $(FUZZ_TARGETS:%=$(BUILD)/fuzz_%)
+replay-programs: $(FUZZ_TARGETS:%=$(BUILD)/replay_%)
+
+fuzz:
+	$(Q)BUILD=$(BUILD) CLANG="$(CLANG)" MAKE="$(MAKE)" TARGETS="$(FUZZ_TARGETS)" SECONDS_EACH="$(FUZZ_SECONDS)" sh tests/fuzz.sh run
+
+fuzz-replay:
+	$(Q)BUILD=$(BUILD) CC="$(CC)" CLANG="$(CLANG)" MAKE="$(MAKE)" TARGETS="$(FUZZ_TARGETS)" sh tests/fuzz.sh replay
 
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 

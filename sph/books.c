@@ -193,7 +193,7 @@ sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double 
         return SPH_OK;
     memcpy(at, x, sizeof at);
     double above = 0, step = 0.25 * dx;
-    for (double y = top + 2 * dx; y > low - dx; y -= step) {
+    for (double y = top + 2 * dx; y > low - dx && y - step < y; y -= step) { /* far from 0 a step may be lost */
         sph_probe_value v;
         at[axis] = y;
         probe_one(sim, at, &v);

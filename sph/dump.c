@@ -653,8 +653,8 @@ static bool check_particles(stream *s, const sph_sim *sim, const sph_buffer *b, 
             return refuse_particle(s, "set", "a set of this simulation", set, id);
         for (int k = 0; k < SPH_DIM; k++) {
             const int64_t q = b->pos[k][i], e = sim->extent[k];
-            if (q < -e || q >= 2 * e)
-                return refuse_particle(s, "pos", "inside the domain, or at most its length outside", (double)q, id);
+            if (q < -e || q >= 2 * e - sim->cell_size[k])
+                return refuse_particle(s, "pos", "inside the domain, or less than its length outside", (double)q, id);
         }
     }
     return true;

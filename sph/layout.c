@@ -107,7 +107,8 @@ sph_status sph_config_check(const sph_config *c, sph_report *r)
     const range_check list[] = {
         {"max_particles", "1 .. 2^30", c->max_particles, 1, 1073741824.0, false},
         {"max_threads", "1 .. 256", c->max_threads, 1, 256, false},
-        {"spacing", "> 0", c->spacing, 0, SPH_HUGE, true},
+        {"port.threads", "at most max_threads", c->port.parallel ? c->port.threads : 0, 0, c->max_threads, false},
+        {"spacing", "1e-30 .. 1e30", c->spacing, 1 / SPH_HUGE, SPH_HUGE, false},
         {"smoothing_length", "0.5 .. 10 spacings", c->smoothing_length, 0.5 * c->spacing, 10 * c->spacing, false},
         {"rho0", "> 0", c->rho0, 0, SPH_HUGE, true},
         {"sound_speed", "> 0", c->sound_speed, 0, 1e15, true},
@@ -135,6 +136,9 @@ sph_status sph_config_check(const sph_config *c, sph_report *r)
             return refuse(r, "lo", "finite", c->lo[k]);
         if (!(c->hi[k] > c->lo[k]) || !(c->hi[k] <= SPH_HUGE))
             return refuse(r, "hi", "> lo on every axis, and finite", c->hi[k]);
+        /* an axis of nearly no length would have no quanta */
+        if (!(c->hi[k] - c->lo[k] >= c->spacing))
+            return refuse(r, "hi", "at least one spacing from lo", c->hi[k] - c->lo[k]);
         if (!(sph_abs(c->gravity[k]) <= 1e15))
             return refuse(r, "gravity", "finite", c->gravity[k]);
     }

@@ -183,6 +183,12 @@ sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const d
     return end_adding(sim, before, st);
 }
 
+/* a lattice must begin and end within a domain's length of the domain: its points are all looked at, one by one */
+static bool near_domain(const sph_sim *sim, int k, double lo, double hi)
+{
+    return lo >= sim->cfg.lo[k] - sim->length[k] && hi <= sim->cfg.hi[k] + sim->length[k];
+}
+
 /* calls append for the lattice points of a box for which inside() holds */
 typedef bool (*inside_fn)(const void *shape, const double *x);
 static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const double *lo, const double *hi, const double *v,
@@ -199,6 +205,8 @@ static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const doubl
     for (int k = 0; k < SPH_DIM; k++) {
         if (!(hi[k] > lo[k]))
             return bad(sim, "hi", "> lo on every axis", hi[k]);
+        if (!near_domain(sim, k, lo[k], hi[k]))
+            return bad(sim, "hi", "a shape within a domain's length of the domain", hi[k]);
         if ((n[k] = intervals(hi[k] - lo[k], dx)) == 0)
             return bad(sim, "hi", "at most 2^30 spacings from lo", hi[k]);
     }
@@ -296,7 +304,8 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
         return st;
     if (!fn)
         return bad(sim, "fn", "a function", 0);
-    sph_buffer *b = &sim->buf[sim->cur];
+    /* values wait in the buffer that is not in use until all were seen to be right */
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers];
     double rho0 = sim->set[set].rho0;
     for (uint32_t i = 0; i < sim->now.count; i++) {
         if (b->set[0][i] != set)
@@ -312,8 +321,15 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
         if (!(rho > 0 && rho < 100 * rho0))
             return bad(sim, "field density", "between 0 and 100 rho0", rho);
         for (int k = 0; k < SPH_DIM; k++)
-            b->vel[k][i] = (sph_real)v[k];
-        b->rho[0][i] = (sph_real)((rho - rho0) / rho0);
+            wait->vel[k][i] = (sph_real)v[k];
+        wait->rho[0][i] = (sph_real)((rho - rho0) / rho0);
+    }
+    for (uint32_t i = 0; i < sim->now.count; i++) {
+        if (b->set[0][i] != set)
+            continue;
+        for (int k = 0; k < SPH_DIM; k++)
+            b->vel[k][i] = wait->vel[k][i];
+        b->rho[0][i] = wait->rho[0][i];
     }
     sim->now.primed = false;
     return SPH_OK;
@@ -484,8 +500,10 @@ static void bound_region(sph_sim *sim, sph_set *s)
         reach[2] = s->half[1] * sph_abs(t2);
 #endif
         double r = reach[0] + reach[1] + reach[2];
-        s->low[k] = to_quanta(sim, s->origin[k] - r) - 1;
-        s->high[k] = to_quanta(sim, s->origin[k] + r) + 1;
+        /* no further than a domain's length outside: nothing is found there, and integers stay small */
+        const double low = s->origin[k] - r, high = s->origin[k] + r, far = sim->length[k];
+        s->low[k] = low > -far ? low < 2 * far ? to_quanta(sim, low) - 1 : 2 * sim->extent[k] - 1 : -sim->extent[k];
+        s->high[k] = high > -far ? high < 2 * far ? to_quanta(sim, high) + 1 : 2 * sim->extent[k] - 1 : -sim->extent[k];
     }
 }
 
@@ -649,6 +667,8 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
     for (int k = 0; k < SPH_DIM; k++) {
         if (!(hi[k] > lo[k]) || !(sph_abs(lo[k]) < 1e15) || !(sph_abs(hi[k]) < 1e15))
             return bad(sim, "hi", "finite and > lo on every axis", hi[k]);
+        if (!near_domain(sim, k, lo[k], hi[k]))
+            return bad(sim, "hi", "a box within a domain's length of the domain", hi[k]);
         axis_lattice *a = &b.ax[k];
         uint32_t n = intervals(hi[k] - lo[k], sim->cfg.spacing);
         if (n == 0 || n > 100000000u)
@@ -785,6 +805,10 @@ void sph_motion_table(void *ctx, double t, double *displacement, double *velocit
     const sph_table *m = ctx;
     uint32_t i = 0;
     double x, v = 0;
+    for (int k = 0; k < SPH_DIM; k++)
+        displacement[k] = velocity[k] = 0;
+    if (!m || !m->rows || !m->t || !m->x || m->axis >= SPH_DIM)
+        return;
     while (i + 1 < m->rows && m->t[i + 1] <= t)
         i++;
     if (t < m->t[0]) {
@@ -795,8 +819,6 @@ void sph_motion_table(void *ctx, double t, double *displacement, double *velocit
         v = (m->x[i + 1] - m->x[i]) / (m->t[i + 1] - m->t[i]);
         x = m->x[i] + v * (t - m->t[i]);
     }
-    for (int k = 0; k < SPH_DIM; k++)
-        displacement[k] = velocity[k] = 0;
     displacement[m->axis] = x - m->x[0];
     velocity[m->axis] = v;
 }

@@ -45,12 +45,16 @@ static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
     const bool high = *q >= sim->extent[k];
     if (*q >= 0 && !high)
         return 0;
-    switch (sim->cfg.face[k][high]) {
-    case SPH_PERIODIC: *q += high ? -sim->extent[k] : sim->extent[k]; return 0;
-    case SPH_SYMMETRY:
-    case SPH_MIRROR_NO_SLIP: *q = high ? 2 * sim->extent[k] - 1 - *q : -*q; return 1;
-    default: return 2;
-    }
+    const uint32_t face = sim->cfg.face[k][high];
+    if (face == SPH_OPEN)
+        return 2;
+    if (face == SPH_PERIODIC)
+        *q += high ? -sim->extent[k] : sim->extent[k];
+    else
+        *q = high ? 2 * sim->extent[k] - 1 - *q : -*q;
+    /* a move of a whole domain may end a quantum outside again */
+    *q = *q < 0 ? 0 : *q < sim->extent[k] ? *q : sim->extent[k] - 1;
+    return face == SPH_PERIODIC ? 0 : 1;
 }
 
 /* the same for a particle; reflections turn the velocity */
@@ -113,7 +117,8 @@ static bool move_wall(const sph_sim *sim, const advance *a, const sph_set *s, ui
     const bool moves = sim->src == sim->cur;
     for (uint32_t j = 0; j < n; j++) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {
-            o->pos[k][at + j] = b->pos[k][i + j] + (moves ? to->moved[k] - from->moved[k] : 0);
+            /* less than a domain's length (sph_move_groups), though the difference alone may not fit into a position */
+            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + (moves ? (int64_t)to->moved[k] - from->moved[k] : 0));
             fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->extent[k]);
             o->vel[k][at + j] = b->vel[k][i + j];
         }

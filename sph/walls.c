@@ -191,7 +191,10 @@ sph_status sph_move_groups(sph_sim *sim, double t)
             if (!(sph_abs(x[k]) < 2 * sim->length[k]) || !(sph_abs(v[k]) < 1e15))
                 return sph_error(sim, SPH_NOT_FINITE, "motion of a wall", "finite and inside the domain", x[k],
                                  SPH_NO_PARTICLE);
-            double q = x[k] / sim->quantum;
+            double q = x[k] / sim->quantum, leap = sph_abs(q - (double)s->moved[k]) * sim->quantum;
+            if (leap >= sim->length[k])
+                return sph_error(sim, SPH_MOVED_TOO_FAR, "motion of a wall", "less than the domain's length in a step", leap,
+                                 SPH_NO_PARTICLE);
             s->moved[k] = (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
             s->vel[k] = v[k];
         }
@@ -235,7 +238,7 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
         const sph_group_state *g = &sim->next.group[s->group];
         double x[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++)
-            x[k] = (double)(b->pos[k][i] - g->moved[k]) * sim->quantum;
+            x[k] = ((double)b->pos[k][i] - (double)g->moved[k]) * sim->quantum;
         double d = depth_inside(s, x);
         if (d > 0 && (found == SPH_MAX_SETS || d < *depth)) {
             found = w;
@@ -245,6 +248,13 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
     return found;
 }
 
+/* a place of axis k from which a move of one cell still fits into an integer: at most about a domain's length outside */
+static sph_pos near_quanta(const sph_sim *sim, int k, int64_t q)
+{
+    const sph_pos low = -sim->extent[k], high = 2 * sim->extent[k] - sim->cell_size[k] - 1;
+    return q < low ? low : q > high ? high : (sph_pos)q;
+}
+
 #define SPH_PUT_BACK_SPACINGS 0.1 /* how far off the wall a particle is put back */
 
 static void put_back(sph_sim *sim, const sph_buffer *b, uint32_t i, const sph_set *s, double depth)
@@ -252,8 +262,10 @@ static void put_back(sph_sim *sim, const sph_buffer *b, uint32_t i, const sph_se
     double vn = 0, off = depth + SPH_PUT_BACK_SPACINGS * sim->cfg.spacing;
     const double *wall = sim->next.group[s->group].vel;
     for (int k = 0; k < SPH_DIM; k++) {
+        const double most = 4 * (double)sim->extent[k];
         double q = off * s->normal[k] / sim->quantum;
-        b->pos[k][i] += (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
+        q = q < -most ? -most : q > most ? most : q;
+        b->pos[k][i] = near_quanta(sim, k, b->pos[k][i] + (int64_t)(q < 0 ? q - 0.5 : q + 0.5));
         vn += ((double)b->vel[k][i] - wall[k]) * s->normal[k];
     }
     if (vn < 0)
@@ -296,8 +308,8 @@ void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
         /* one loop a wall over integers: compilers make vectors of it */
         sph_pos lo[SPH_DIM], hi[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
-            lo[k] = s->low[k] + sim->next.group[s->group].moved[k];
-            hi[k] = s->high[k] + sim->next.group[s->group].moved[k];
+            lo[k] = near_quanta(sim, k, (int64_t)s->low[k] + sim->next.group[s->group].moved[k]);
+            hi[k] = near_quanta(sim, k, (int64_t)s->high[k] + sim->next.group[s->group].moved[k]);
         }
         for (uint32_t i = first; i < last; i++) {
             int in = 1;
