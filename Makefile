@@ -141,6 +141,8 @@ builds_test_kernels := $(BUILDS)
 builds_test_conserve := $(BUILDS)
 builds_test_bits    := $(BUILDS)
 builds_test_fail    := 1d 2f 3f
+builds_test_entry   := 1f 2f 2d 3d
+builds_test_faults  := 1d 2f 3f
 builds_test_api     := $(BUILDS)
 builds_test_walls   := $(BUILDS)
 builds_test_eos_schemes := $(BUILDS)
@@ -163,6 +165,7 @@ test:
 	$(Q)CC="$(CC)" sh tests/need_cmocka.sh
 	$(Q)$(MAKE) --no-print-directory tests
 	$(Q)EXEC="$(EXEC)" sh tests/run.sh $(BUILD) $(test_bins)
+	$(Q)sh tests/entries.sh
 	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/bits.sh --quick
 
 tests: $(test_bins)

@@ -594,7 +594,7 @@ static bool write_all(stream *s, const sph_sim *sim, uint32_t fields, uint64_t b
 sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ctx)
 {
     const uint32_t known = SPH_DUMP_FULL | SPH_DUMP_PICTURE | SPH_DUMP_ACCELERATION;
-    if (!sink || (fields & ~known))
+    if (!sim || !sink || (fields & ~known))
         return SPH_BAD_ARGUMENT;
     stream s;
     memset(&s, 0, sizeof s);
@@ -735,6 +735,8 @@ static void wipe(const sph_sim *sim, const sph_buffer *b)
 
 sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "sph_restore", "between steps", 0, SPH_NO_PARTICLE);
     if (!source)

@@ -110,8 +110,8 @@ sph_status sph_config_check(const sph_config *c, sph_report *r)
         {"port.threads", "at most max_threads", c->port.parallel ? c->port.threads : 0, 0, c->max_threads, false},
         {"spacing", "1e-30 .. 1e30", c->spacing, 1 / SPH_HUGE, SPH_HUGE, false},
         {"smoothing_length", "0.5 .. 10 spacings", c->smoothing_length, 0.5 * c->spacing, 10 * c->spacing, false},
-        {"rho0", "> 0", c->rho0, 0, SPH_HUGE, true},
-        {"sound_speed", "> 0", c->sound_speed, 0, 1e15, true},
+        {"rho0", "1e-30 .. 1e30", c->rho0, 1 / SPH_HUGE, SPH_HUGE, false},
+        {"sound_speed", "1e-15 .. 1e15", c->sound_speed, 1e-15, 1e15, false},
         {"alpha", ">= 0", c->alpha, 0, 1e6, false},
         {"beta", ">= 0", c->beta, 0, 1e6, false},
         {"nu", ">= 0, and > 0 for SPH_MORRIS", c->nu, 0, SPH_HUGE, c->viscosity == SPH_MORRIS},
@@ -194,10 +194,15 @@ typedef struct layout {
     size_t at;
     void (*fn)(void *ctx, const char *name, size_t bytes);
     void *ctx;
+    bool over; /* more than this machine can address */
 } layout;
 
 static void *take(layout *l, const char *name, size_t count, size_t size)
 {
+    if (count > (SIZE_MAX / 2 - l->at - SPH_ALIGN) / size) {
+        l->over = true;
+        return NULL;
+    }
     size_t bytes = (count * size + SPH_ALIGN - 1) / SPH_ALIGN * SPH_ALIGN;
     void *p = l->base ? l->base + l->at : NULL;
     l->at += bytes;
@@ -243,11 +248,11 @@ static sph_status measure(sph_sim *s, const sph_config *c, size_t *bytes, sph_re
     s->cfg = *c;
     if ((st = make_grid(s, r)) != SPH_OK)
         return st;
-    layout l = {NULL, 0, NULL, NULL};
+    layout l = {NULL, 0, NULL, NULL, false};
     take(&l, "header", 1, sizeof *s);
     lay_out(s, &l);
     *bytes = l.at;
-    return SPH_OK;
+    return l.over ? refuse(r, "max_particles", "an arena that this machine can address", c->max_particles) : SPH_OK;
 }
 
 size_t sph_arena_bytes(const sph_config *cfg)
@@ -306,7 +311,7 @@ sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t by
     if (r->status)
         return r->status;
     memset(arena, 0, need);
-    layout l = {arena, 0, NULL, NULL};
+    layout l = {arena, 0, NULL, NULL, false};
     sph_sim *sim = take(&l, "header", 1, sizeof *sim);
     *sim = s;
     lay_out(sim, &l);
@@ -322,23 +327,33 @@ sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t by
 
 void sph_arena_report(const sph_sim *sim, void (*fn)(void *ctx, const char *name, size_t bytes), void *ctx)
 {
+    if (!sim || !fn)
+        return;
     sph_sim copy = *sim;
-    layout l = {NULL, 0, fn, ctx};
+    layout l = {NULL, 0, fn, ctx, false};
     take(&l, "header", 1, sizeof copy);
     lay_out(&copy, &l);
 }
 
 void sph_get_usage(const sph_sim *sim, sph_usage *out)
 {
+    if (!sim || !out)
+        return;
     *out = (sph_usage){sim->arena_bytes, sim->arena_used,  sim->mark_particles, sim->cfg.max_particles, sim->cells,
                        sim->mark_cell,   sim->mark_work, sim->sets,           sim->groups};
 }
 
-const sph_report *sph_last(const sph_sim *sim) { return &sim->report; }
+const sph_report *sph_last(const sph_sim *sim)
+{
+    static const sph_report none = {SPH_BAD_ARGUMENT, "sim", "a simulation made by sph_init", "", 0, SPH_NO_PARTICLE};
+    return sim ? &sim->report : &none;
+}
 
 /* records a failure and tells the host's fault hook */
 sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     const char *pass = sim->begun && sim->pc < sim->passes ? sim->program[sim->pc]->name : "";
     sim->report = (sph_report){s, what, allowed, pass, value, particle};
     if (sim->cfg.port.fault)
@@ -349,6 +364,8 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
 sph_status sph_reconfigure(sph_sim *sim, const sph_config *cfg)
 {
     sph_report r;
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "reconfigure", "between steps", 0, SPH_NO_PARTICLE);
     if (sph_config_check(cfg, &r) != SPH_OK)

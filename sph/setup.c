@@ -15,6 +15,8 @@ static sph_status bad(sph_sim *sim, const char *what, const char *allowed, doubl
 /* everything of set-up needs a simulation that is not in the middle of a step */
 static sph_status idle(sph_sim *sim, const char *call)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     return sim->begun ? sph_error(sim, SPH_BAD_STATE, call, "between steps", 0, SPH_NO_PARTICLE) : SPH_OK;
 }
 
@@ -65,12 +67,12 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
     if (!set)
         return bad(sim, "set", "a place for the set's number", 0);
     double mass = f ? f->mass : 0, rho0 = f ? f->rho0 : 0, c0 = f ? f->sound_speed : 0;
-    if (!(mass >= 0 && mass < 1e30))
-        return bad(sim, "fluid.mass", ">= 0", mass);
-    if (!(rho0 >= 0 && rho0 < 1e30))
-        return bad(sim, "fluid.rho0", ">= 0", rho0);
-    if (!(c0 >= 0 && c0 < 1e15))
-        return bad(sim, "fluid.sound_speed", ">= 0", c0);
+    if (mass != 0 && !(mass >= 1e-30 && mass <= 1e30))
+        return bad(sim, "fluid.mass", "0 or 1e-30 .. 1e30", mass);
+    if (rho0 != 0 && !(rho0 >= 1e-30 && rho0 <= 1e30))
+        return bad(sim, "fluid.rho0", "0 or 1e-30 .. 1e30", rho0);
+    if (c0 != 0 && !(c0 >= 1e-15 && c0 <= 1e15))
+        return bad(sim, "fluid.sound_speed", "0 or 1e-15 .. 1e15", c0);
     if (sim->sets == SPH_MAX_SETS)
         return sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most SPH_MAX_SETS", sim->sets, SPH_NO_PARTICLE);
     sph_set *s = &sim->set[sim->sets];
@@ -246,7 +248,7 @@ static bool in_ring(const void *shape, const double *x)
 }
 sph_status sph_add_ring(sph_sim *sim, uint32_t set, const double *centre, double inner, double outer, const double *v)
 {
-    if (!centre)
+    if (!sim || !centre)
         return bad(sim, "centre", "a position", 0);
     if (!(inner >= 0) || !(outer > inner) || !(outer < 1e15))
         return bad(sim, "outer", "finite and > inner >= 0", outer);
@@ -382,13 +384,19 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface)
         return bad(sim, "surface", "finite, with gravity along one axis", surface);
     const sph_set *s = &sim->set[set];
     double g = sim->cfg.gravity[axis];
-    sph_buffer *b = &sim->buf[sim->cur];
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers]; /* as sph_apply_field */
     for (uint32_t i = 0; i < sim->now.count; i++)
         if (b->set[0][i] == set) {
             double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->quantum;
             double p = s->rho0 * g * (x - surface); /* g < 0: below the surface p > 0 */
-            b->rho[0][i] = (sph_real)sph_density_of(sim, s, p > 0 ? p : 0);
+            double d = sph_density_of(sim, s, p > 0 ? p : 0);
+            if (!(d >= -1 && d < 99))
+                return bad(sim, "surface", "a depth at which density stays below 100 rho0", surface);
+            wait->rho[0][i] = (sph_real)d;
         }
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        if (b->set[0][i] == set)
+            b->rho[0][i] = wait->rho[0][i];
     sim->now.primed = false;
     return SPH_OK;
 }
@@ -798,7 +806,10 @@ sph_status sph_remove_wall_at(sph_sim *sim, uint32_t group, double t)
         sim->now.primed = false; /* forces must be made anew without the wall */
     return SPH_OK;
 }
-sph_status sph_remove_wall(sph_sim *sim, uint32_t group) { return sph_remove_wall_at(sim, group, sim->now.time); }
+sph_status sph_remove_wall(sph_sim *sim, uint32_t group)
+{
+    return sph_remove_wall_at(sim, group, sim ? sim->now.time : 0);
+}
 
 void sph_motion_table(void *ctx, double t, double *displacement, double *velocity)
 {

@@ -7,9 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "sph/internal.h"
-
-#define UNUSED __attribute__((unused))
+#include "tests/state.h"
 
 /* what must hold for any input; a fuzzer takes the abort for a finding */
 #define hold(cond)                                                                                          \
@@ -92,56 +90,6 @@ static UNUSED sph_sim *fuzz_init(const sph_config *c, void **block)
     memset(*block, 0xa5, bytes);
     hold(sph_init(&sim, c, *block, bytes, &r) == SPH_OK && sim != NULL);
     return sim;
-}
-
-/* ---- the committed state ---- */
-
-typedef struct snapshot {
-    uint64_t hash;
-    uint32_t cur;
-    sph_scalars now;
-    unsigned char *arrays;
-    size_t bytes;
-} snapshot;
-
-/* copies the arrays of the current buffer to `to` (null: counts), or compares them; returns the bytes, 0 if they differ */
-static UNUSED size_t state_arrays(const sph_sim *sim, unsigned char *to, const unsigned char *with)
-{
-    const sph_buffer *b = &sim->buf[sim->cur];
-    size_t at = 0;
-#define FUZZ_FIELD(name, type, comps, unit, when)                                                           \
-    for (uint32_t k = 0; k < (comps); k++)                                                                  \
-        if (b->name[k]) {                                                                                   \
-            const size_t bytes = sizeof(type) * sim->now.count;                                             \
-            if (to)                                                                                         \
-                memcpy(to + at, b->name[k], bytes);                                                         \
-            if (with && memcmp(with + at, b->name[k], bytes) != 0)                                          \
-                return 0;                                                                                   \
-            at += bytes;                                                                                    \
-        }
-    SPH_STATE_FIELDS(FUZZ_FIELD)
-#undef FUZZ_FIELD
-    return at;
-}
-
-static UNUSED void keep_state(const sph_sim *sim, snapshot *s)
-{
-    s->hash = sph_hash(sim);
-    s->cur = sim->cur;
-    memcpy(&s->now, &sim->now, sizeof s->now);
-    s->bytes = state_arrays(sim, NULL, NULL);
-    s->arrays = malloc(s->bytes + 1);
-    hold(s->arrays != NULL);
-    state_arrays(sim, s->arrays, NULL);
-}
-/* whether nothing of it has changed; frees the copy */
-static UNUSED bool state_kept(const sph_sim *sim, snapshot *s)
-{
-    const bool same = sph_hash(sim) == s->hash && sim->cur == s->cur && memcmp(&s->now, &sim->now, sizeof s->now) == 0 &&
-                      state_arrays(sim, NULL, s->arrays) == s->bytes;
-    free(s->arrays);
-    s->arrays = NULL;
-    return same;
 }
 
 /* ---- what holds after any step ---- */
