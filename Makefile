@@ -80,7 +80,7 @@ scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests
-.PHONY: fuzz fuzz-replay fuzz-programs replay-programs
+.PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
@@ -205,6 +205,28 @@ fuzz:
 fuzz-replay:
 	$(Q)BUILD=$(BUILD) CC="$(CC)" CLANG="$(CLANG)" MAKE="$(MAKE)" TARGETS="$(FUZZ_TARGETS)" sh tests/fuzz.sh replay
 
+# ---- sanitizers: the tests under them ----
+
+asan_flags := -fsanitize=address,undefined
+tsan_flags := -fsanitize=thread
+msan_flags := -fsanitize=memory -fsanitize-memory-track-origins
+sanitized = $(MAKE) --no-print-directory $(1) BUILD=$(BUILD)/$(2) CC="$(CLANG)" WARN="-Wall -Wno-pass-failed" \
+	OPT="-O1 -g -fno-omit-frame-pointer" CFLAGS="$($(2)_flags) -fno-sanitize-recover=all" LDFLAGS="$($(2)_flags)"
+TSAN_TESTS ?= $(BUILD)/tsan/tests/test_threads_1d $(BUILD)/tsan/tests/test_threads_2f $(BUILD)/tsan/tests/test_threads_3f
+asan:
+	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
+	$(Q)$(call sanitized,tests,asan)
+	$(Q)ASAN_OPTIONS=detect_leaks=0 sh tests/run.sh $(BUILD)/asan $(test_bins:$(BUILD)/%=$(BUILD)/asan/%)
+tsan:
+	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
+	$(Q)$(call sanitized,$(TSAN_TESTS),tsan)
+	$(Q)TSAN_OPTIONS=halt_on_error=1 sh tests/run.sh $(BUILD)/tsan $(TSAN_TESTS)
+# the framework-free golden runs: a library that was not built with this sanitizer cannot be linked in
+msan:
+	$(Q)$(call sanitized,golden,msan)
+	$(Q)$(BUILD)/msan/golden >$(BUILD)/msan/golden.csv
+	$(Q)sed '/^\#/d' tests/golden.csv | diff - $(BUILD)/msan/golden.csv && echo "msan: $$(wc -l <$(BUILD)/msan/golden.csv) golden runs, no use of an unset byte, same hashes"
+
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
 bench:
@@ -238,6 +260,9 @@ help:
 	'make bench      speed and memory, gcc and clang, native and portable      -> $(BUILD)/bench.csv' \
 	'make size       bytes of arena, code, constants and stack                 -> $(BUILD)/size.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
+	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
+	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
+	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck and clang-tidy, those that are installed' \
 	'make clean      removes $(BUILD)' \
