@@ -9,14 +9,16 @@ uint32_t sph_count(const sph_sim *sim) { return sim ? sim->now.count : 0; }
 static void position(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *x)
 {
     for (int k = 0; k < SPH_DIM; k++)
-        x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->quantum;
+        x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
 }
 
+#if SPH_WITH_TOTALS || SPH_WITH_PROBES
 static bool is_fluid(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 {
     uint8_t s = b->set[0][i];
     return s != SPH_DEAD && sim->set[s].role == SPH_ROLE_FLUID;
 }
+#endif
 
 sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
 {
@@ -44,6 +46,7 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
     return SPH_OK;
 }
 
+#if SPH_WITH_TOTALS
 /* energy of compression from rho0, J/kg: integral of p/rho^2 d rho */
 static double compression_energy(const sph_sim *sim, const sph_set *s, double d)
 {
@@ -98,6 +101,9 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
     out->removed_mass = sim->now.removed_mass;
 }
 
+#endif
+
+#if SPH_WITH_PROBES
 /* ---- probes ---- */
 
 /* W(r) in double for one particle */
@@ -111,12 +117,12 @@ double sph_kernel_w(const sph_sim *sim, double r)
 static void probe_one(const sph_sim *sim, const double *x, sph_probe_value *o)
 {
     const sph_buffer *b = &sim->buf[sim->cur];
-    const double reach2 = sim->support * sim->support;
+    const double reach2 = sim->grid.support * sim->grid.support;
     memset(o, 0, sizeof *o);
     for (uint32_t i = 0; i < sim->now.count; i++) {
-        double d = ((double)b->pos[0][i] * sim->quantum + sim->cfg.lo[0]) - x[0], r2 = d * d;
+        double d = ((double)b->pos[0][i] * sim->grid.quantum + sim->cfg.lo[0]) - x[0], r2 = d * d;
         for (int k = 1; k < SPH_DIM && r2 < reach2; k++) {
-            d = ((double)b->pos[k][i] * sim->quantum + sim->cfg.lo[k]) - x[k];
+            d = ((double)b->pos[k][i] * sim->grid.quantum + sim->cfg.lo[k]) - x[k];
             r2 += d * d;
         }
         if (!(r2 < reach2) || !is_fluid(sim, b, i))
@@ -175,7 +181,7 @@ sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double 
         return SPH_BAD_ARGUMENT;
     /* from above the highest fluid particle near the line down, a quarter spacing at a time */
     const sph_buffer *b = &sim->buf[sim->cur];
-    const double dx = sim->cfg.spacing, reach2 = sim->support * sim->support;
+    const double dx = sim->cfg.spacing, reach2 = sim->grid.support * sim->grid.support;
     double at[SPH_DIM], top = sim->cfg.lo[axis], low = sim->cfg.lo[axis];
     bool any = false;
     for (uint32_t i = 0; i < sim->now.count; i++) {
@@ -221,9 +227,10 @@ void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high)
     for (uint32_t i = 0; i < sim->now.count; i++) {
         if (!is_fluid(sim, b, i))
             continue;
-        double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->quantum;
+        double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->grid.quantum;
         *low = !any || x < *low ? x : *low;
         *high = !any || x > *high ? x : *high;
         any = true;
     }
 }
+#endif

@@ -24,12 +24,9 @@
 
 /* ---- 1 build knobs ---------------------------------------------------------------------------------
    SPH_DIM 1, 2, 3 and SPH_DOUBLE 0, 1 must be the same for the library and its users (see name.h: a
-   mismatch does not link). The knobs below leave code out; they change no type. */
+   mismatch does not link). The knobs SPH_WITH_... of modules.h leave code out; they change no type. */
+#include "modules.h"
 #include "name.h"
-
-#ifndef SPH_WITH_FAST_PATHS
-#define SPH_WITH_FAST_PATHS 1 /* inner loops compiled apart for common choices: same bits, more code */
-#endif
 
 #if SPH_DOUBLE
 typedef double sph_real;
@@ -190,6 +187,7 @@ typedef struct sph_config {
     /* capacity */
     uint32_t max_particles; /* fluid and wall particles together, 1 .. 2^30 */
     uint32_t max_threads;   /* scratch for so many threads, 1 .. 256 */
+    uint32_t max_sets;      /* particle sets, 1 .. SPH_MAX_SETS (the default) */
 
     /* domain: a box that holds everything, walls included (m) */
     double lo[SPH_DIM], hi[SPH_DIM]; /* at least one spacing along every axis */
@@ -293,6 +291,7 @@ typedef struct sph_usage {
     uint32_t cells;                    /* cells of the domain */
     uint32_t cell_particles;           /* most particles in one cell */
     uint64_t step_work;                /* most work units in one step */
+    uint64_t slice_work;               /* most work units in one slice */
     uint32_t sets, groups;
 } sph_usage;
 #define sph_get_usage SPH_NAME(get_usage)
@@ -427,13 +426,17 @@ sph_status sph_step(sph_sim *sim);
 #define sph_step_to SPH_NAME(step_to)
 sph_status sph_step_to(sph_sim *sim, double t_end);
 
-/* Part of a step: does chunks until about `budget` work units are spent (one unit: one candidate pair, or one particle
-   in a local pass), then returns SPH_NOT_DONE; SPH_OK when the step is complete. Until then the state that can be
-   read is that of the step's beginning. With n particles and at most c in a cell, the last chunks (one a thread) may pass
-   the budget by at most threads * max(32 (3^DIM c^2 + 1), n): 32 cells of a sweep, or a range of the sort, which is all
-   particles in the worst case. A whole step is at most E (3^DIM c n + cells + 32) + 16 n units; E counts its sweeps: 1 for
-   the forces (2 for all integrators but the predictor-corrector), as many again with Adami walls, 1 each for the Shepard
-   filter and summation (2 with Runge-Kutta). Passes without chunks (starting a sort, walls that move) are not counted. */
+/* Part of a step: does chunks until about `budget` work units are spent (one unit: one candidate pair, one particle in a local
+   pass or looked at by a sort, one cell), then returns SPH_NOT_DONE; SPH_OK when the step is complete. Until then the state
+   that can be read is that of the step's beginning. With n particles, at most c in a cell and at most s in a slab (a layer of
+   cells along the last axis) of b cells:
+     a slice    at most budget + threads * max(3^DIM c^2 + 1, (k + 2) s + k b, 256) units, k = max(3, slabs/64 rounded up): the
+                last chunks, one a thread, may pass the budget, and a chunk is a cell of a sweep, k slabs of a sort, or 256
+                particles. The first sort of all has one chunk of n + cells units: sph_ready does it beforehand.
+     a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2 for all
+                integrators but the predictor-corrector), as many again with Adami walls, 1 each for the Shepard filter and
+                summation (2 with Runge-Kutta).
+   Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
 /* Gives up a step that was begun in slices. */
