@@ -22,7 +22,9 @@ static __attribute__((noinline)) sph_status check_least_0(sph_sim *sim, const ch
     return v >= 0 && v < (double)below ? SPH_OK : bad(sim, what, ">= 0", v);
 }
 
+#if SPH_HAS_WALLS || SPH_WITH_SHAPES
 static __attribute__((noinline)) uint32_t round_up(double x) { return x <= 0 ? 0 : x >= 4e9 ? 4000000000u : (uint32_t)(x + 0.999999); }
+#endif
 
 /* number of lattice intervals in a length, at least one; 0 if there are absurdly many */
 static __attribute__((noinline)) uint32_t intervals(double length, double dx)
