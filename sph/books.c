@@ -4,7 +4,7 @@
 #include "internal.h"
 #include "kernels.h"
 
-uint32_t sph_count(const sph_sim *sim) { return sim->now.count; }
+uint32_t sph_count(const sph_sim *sim) { return sim ? sim->now.count : 0; }
 
 static void position(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *x)
 {
@@ -22,9 +22,9 @@ static bool is_fluid(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 
 sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
 {
-    const sph_buffer *b = &sim->buf[sim->cur];
-    if (i >= sim->now.count || !out)
+    if (!sim || i >= sim->now.count || !out)
         return SPH_BAD_ARGUMENT;
+    const sph_buffer *b = &sim->buf[sim->cur];
     memset(out, 0, sizeof *out);
     out->id = b->id[0][i];
     out->set = b->set[0][i];
@@ -84,6 +84,8 @@ static void add_particle_totals(const sph_sim *sim, const sph_buffer *b, uint32_
 
 void sph_get_totals(const sph_sim *sim, sph_totals *out)
 {
+    if (!sim || !out)
+        return;
     const sph_buffer *b = &sim->buf[sim->cur];
     memset(out, 0, sizeof *out);
     for (uint32_t i = 0; i < sim->now.count; i++)
@@ -154,7 +156,7 @@ static bool finite_vector(const double *x)
 
 sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out)
 {
-    if (!x || !out || !finite_vector(x))
+    if (!sim || !x || !out || !finite_vector(x))
         return SPH_BAD_ARGUMENT;
     probe_one(sim, x, out);
     return SPH_OK;
@@ -162,7 +164,7 @@ sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out)
 
 sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, uint32_t n, sph_probe_value *out)
 {
-    if (!a || !b || !out || n < 2 || !finite_vector(a) || !finite_vector(b))
+    if (!sim || !a || !b || !out || n < 2 || !finite_vector(a) || !finite_vector(b))
         return SPH_BAD_ARGUMENT;
     for (uint32_t i = 0; i < n; i++) {
         double x[SPH_DIM];
@@ -175,7 +177,7 @@ sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, 
 
 sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height)
 {
-    if (!x || !height || axis >= SPH_DIM || !finite_vector(x))
+    if (!sim || !x || !height || axis >= SPH_DIM || !finite_vector(x))
         return SPH_BAD_ARGUMENT;
     /* from above the highest fluid particle near the line down, a quarter spacing at a time */
     const sph_buffer *b = &sim->buf[sim->cur];
@@ -199,7 +201,7 @@ sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double 
         return SPH_OK;
     memcpy(at, x, sizeof at);
     double above = 0, step = 0.25 * dx;
-    for (double y = top + 2 * dx; y > low - dx; y -= step) {
+    for (double y = top + 2 * dx; y > low - dx && y - step < y; y -= step) { /* far from 0 a step may be lost */
         sph_probe_value v;
         at[axis] = y;
         probe_one(sim, at, &v);
@@ -215,6 +217,8 @@ sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double 
 
 void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high)
 {
+    if (!sim || !low || !high)
+        return;
     const sph_buffer *b = &sim->buf[sim->cur];
     bool any = false;
     *low = *high = 0;

@@ -600,7 +600,7 @@ static bool write_all(stream *s, const sph_sim *sim, uint32_t fields, uint64_t b
 sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ctx)
 {
     const uint32_t known = SPH_DUMP_FULL | SPH_DUMP_PICTURE | SPH_DUMP_ACCELERATION;
-    if (!sink || (fields & ~known))
+    if (!sim || !sink || (fields & ~known))
         return SPH_BAD_ARGUMENT;
     stream s;
     memset(&s, 0, sizeof s);
@@ -662,8 +662,8 @@ static bool check_particles(stream *s, const sph_sim *sim, const sph_buffer *b, 
             return refuse_particle(s, "set", "a set of this simulation", set, id);
         for (int k = 0; k < SPH_DIM; k++) {
             const int64_t q = b->pos[k][i], e = sim->grid.extent[k];
-            if (q < -e || q >= 2 * e)
-                return refuse_particle(s, "pos", "inside the domain, or at most its length outside", (double)q, id);
+            if (q < -e || q >= 2 * e - sim->grid.cell_size[k])
+                return refuse_particle(s, "pos", "inside the domain, or less than its length outside", (double)q, id);
         }
     }
     return true;
@@ -744,6 +744,8 @@ static void wipe(const sph_sim *sim, const sph_buffer *b)
 
 sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "sph_restore", "between steps", 0, SPH_NO_PARTICLE);
     if (!source)

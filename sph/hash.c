@@ -56,6 +56,8 @@ uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n)
 
 uint64_t sph_hash(const sph_sim *sim)
 {
+    if (!sim)
+        return 0;
     const sph_scalars *s = &sim->now;
     uint64_t h = sph_hash_buffer(sim, &sim->buf[sim->cur], s->count);
     h = sph_mix_double(sph_mix_double(h, s->time), s->dt_last);

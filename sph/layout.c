@@ -77,10 +77,10 @@ static const range_check ranges[] = {
     {"max_particles", "1 .. 2^30", AT(max_particles), true, false, 1, 1073741824.0f},
     {"max_threads", "1 .. 256", AT(max_threads), true, false, 1, 256},
     {"max_sets", "1 .. SPH_MAX_SETS", AT(max_sets), true, false, 1, SPH_MAX_SETS},
-    {"spacing", "> 0", AT(spacing), false, true, 0, SPH_HUGE},
+    {"spacing", "1e-30 .. 1e30", AT(spacing), false, false, 1 / SPH_HUGE, SPH_HUGE},
     {"smoothing_length", "0.5 .. 10 spacings", AT(smoothing_length), false, true, 0, SPH_HUGE},
-    {"rho0", "> 0", AT(rho0), false, true, 0, SPH_HUGE},
-    {"sound_speed", "> 0", AT(sound_speed), false, true, 0, 1e15f},
+    {"rho0", "1e-30 .. 1e30", AT(rho0), false, false, 1 / SPH_HUGE, SPH_HUGE},
+    {"sound_speed", "1e-15 .. 1e15", AT(sound_speed), false, false, 1e-15f, 1e15f},
     {"alpha", ">= 0", AT(alpha), false, false, 0, 1e6f},
     {"beta", ">= 0", AT(beta), false, false, 0, 1e6f},
     {"nu", ">= 0, and > 0 for SPH_MORRIS", AT(nu), false, false, 0, SPH_HUGE},
@@ -117,6 +117,8 @@ static sph_status check_numbers(const sph_config *c, sph_report *r)
         if (!(v >= low && v <= (double)e->high) || (e->low_open && !(v > low)))
             return refuse(r, e->what, e->allowed, v);
     }
+    if (c->port.parallel && c->port.threads > c->max_threads)
+        return refuse(r, "port.threads", "at most max_threads", c->port.threads);
     if (!(c->smoothing_length >= 0.5 * c->spacing && c->smoothing_length <= 10 * c->spacing))
         return refuse(r, "smoothing_length", "0.5 .. 10 spacings", c->smoothing_length);
     if (SPH_IS(c->viscosity, MORRIS) && !(c->nu > 0))
@@ -126,6 +128,8 @@ static sph_status check_numbers(const sph_config *c, sph_report *r)
             return refuse(r, "lo", "finite", c->lo[k]);
         if (!(c->hi[k] > c->lo[k]) || !(c->hi[k] <= (double)SPH_HUGE))
             return refuse(r, "hi", "> lo on every axis, and finite", c->hi[k]);
+        if (!(c->hi[k] - c->lo[k] >= c->spacing)) /* an axis of nearly no length would have no quanta */
+            return refuse(r, "hi", "at least one spacing from lo", c->hi[k] - c->lo[k]);
         if (!(sph_abs(c->gravity[k]) <= 1e15))
             return refuse(r, "gravity", "finite", c->gravity[k]);
     }
@@ -258,10 +262,15 @@ typedef struct layout {
     size_t at;
     void (*fn)(void *ctx, const char *name, size_t bytes);
     void *ctx;
+    bool over; /* more than this machine can address */
 } layout;
 
 static void *take(layout *l, const char *name, size_t count, size_t size)
 {
+    if (count > (SIZE_MAX / 2 - l->at - SPH_ALIGN) / size) {
+        l->over = true;
+        return NULL;
+    }
     size_t bytes = (count * size + SPH_ALIGN - 1) / SPH_ALIGN * SPH_ALIGN;
     void *p = l->base ? l->base + l->at : NULL;
     l->at += bytes;
@@ -335,11 +344,11 @@ static sph_status measure(const sph_config *c, sph_grid *g, size_t *bytes, sph_r
         st = make_grid(c, g, r);
     if (st)
         return st;
-    layout l = {NULL, 0, NULL, NULL};
+    layout l = {NULL, 0, NULL, NULL, false};
     take(&l, "header", 1, sizeof(sph_sim));
     lay_out(c, g, NULL, &l);
     *bytes = l.at;
-    return SPH_OK;
+    return l.over ? refuse(r, "max_particles", "an arena that this machine can address", c->max_particles) : SPH_OK;
 }
 
 size_t sph_arena_bytes(const sph_config *cfg)
@@ -395,7 +404,7 @@ sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t by
     if (r->status)
         return r->status;
     memset(arena, 0, need);
-    layout l = {arena, 0, NULL, NULL};
+    layout l = {arena, 0, NULL, NULL, false};
     sph_sim *sim = take(&l, "header", 1, sizeof *sim);
     sim->cfg = *cfg;
     sim->grid = grid;
@@ -412,22 +421,32 @@ sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t by
 
 void sph_arena_report(const sph_sim *sim, void (*fn)(void *ctx, const char *name, size_t bytes), void *ctx)
 {
-    layout l = {NULL, 0, fn, ctx};
+    if (!sim || !fn)
+        return;
+    layout l = {NULL, 0, fn, ctx, false};
     take(&l, "header", 1, sizeof *sim);
     lay_out(&sim->cfg, &sim->grid, NULL, &l);
 }
 
 void sph_get_usage(const sph_sim *sim, sph_usage *out)
 {
+    if (!sim || !out)
+        return;
     *out = (sph_usage){sim->arena_bytes, sim->arena_used,  sim->mark_particles, sim->cfg.max_particles, sim->grid.cells,
                        sim->mark_cell,   sim->mark_work,  sim->mark_slice,    sim->sets,              sim->groups};
 }
 
-const sph_report *sph_last(const sph_sim *sim) { return &sim->report; }
+const sph_report *sph_last(const sph_sim *sim)
+{
+    static const sph_report none = {SPH_BAD_ARGUMENT, "sim", "a simulation made by sph_init", "", 0, SPH_NO_PARTICLE};
+    return sim ? &sim->report : &none;
+}
 
 /* records a failure and tells the host's fault hook */
 sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     const char *pass = sim->begun && sim->pc < sim->passes ? sim->program[sim->pc]->name : "";
     sim->report = (sph_report){s, what, allowed, pass, value, particle};
     if (sim->cfg.port.fault)
@@ -438,6 +457,8 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
 sph_status sph_reconfigure(sph_sim *sim, const sph_config *cfg)
 {
     sph_report r;
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "reconfigure", "between steps", 0, SPH_NO_PARTICLE);
     if (sph_config_check(cfg, &r) != SPH_OK)

@@ -14,12 +14,17 @@ static sph_status bad(sph_sim *sim, const char *what, const char *allowed, doubl
 /* everything of set-up needs a simulation that is not in the middle of a step */
 static __attribute__((noinline)) sph_status idle(sph_sim *sim, const char *call)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     return sim->begun ? sph_error(sim, SPH_BAD_STATE, call, "between steps", 0, SPH_NO_PARTICLE) : SPH_OK;
 }
 
-static __attribute__((noinline)) sph_status check_least_0(sph_sim *sim, const char *what, double v, float below)
+/* 0, which asks for a default, or between 1/most and most, whose squares and quotients stay in a double's range */
+static __attribute__((noinline)) sph_status check_positive(sph_sim *sim, const char *what, double v, float most)
 {
-    return v >= 0 && v < (double)below ? SPH_OK : bad(sim, what, ">= 0", v);
+    if (v == 0 || (v >= 1 / (double)most && v <= (double)most))
+        return SPH_OK;
+    return bad(sim, what, most > 1e20f ? "0 or 1e-30 .. 1e30" : "0 or 1e-15 .. 1e15", v);
 }
 
 #if SPH_HAS_WALLS || SPH_WITH_SHAPES
@@ -71,9 +76,9 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
     if (!set)
         return bad(sim, "set", "a place for the set's number", 0);
     double mass = f ? f->mass : 0, rho0 = f ? f->rho0 : 0, c0 = f ? f->sound_speed : 0;
-    if ((st = check_least_0(sim, "fluid.mass", mass, 1e30f)) != SPH_OK ||
-        (st = check_least_0(sim, "fluid.rho0", rho0, 1e30f)) != SPH_OK ||
-        (st = check_least_0(sim, "fluid.sound_speed", c0, 1e15f)) != SPH_OK)
+    if ((st = check_positive(sim, "fluid.mass", mass, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, "fluid.rho0", rho0, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, "fluid.sound_speed", c0, 1e15f)) != SPH_OK)
         return st;
     if (sim->sets == sim->cfg.max_sets)
         return sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most max_sets", sim->sets, SPH_NO_PARTICLE);
@@ -187,6 +192,12 @@ sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const d
     return end_adding(sim, before, st);
 }
 
+/* a lattice must begin and end within a domain's length of the domain: its points are all looked at, one by one */
+static bool near_domain(const sph_sim *sim, int k, double lo, double hi)
+{
+    return lo >= sim->cfg.lo[k] - sim->grid.length[k] && hi <= sim->cfg.hi[k] + sim->grid.length[k];
+}
+
 /* calls append for the lattice points of a box for which inside() holds */
 typedef bool (*inside_fn)(const void *shape, const double *x);
 static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const double *lo, const double *hi, const double *v,
@@ -203,6 +214,8 @@ static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const doubl
     for (int k = 0; k < SPH_DIM; k++) {
         if (!(hi[k] > lo[k]))
             return bad(sim, "hi", "> lo on every axis", hi[k]);
+        if (!near_domain(sim, k, lo[k], hi[k]))
+            return bad(sim, "hi", "a shape within a domain's length of the domain", hi[k]);
         if ((n[k] = intervals(hi[k] - lo[k], dx)) == 0)
             return bad(sim, "hi", "at most 2^30 spacings from lo", hi[k]);
     }
@@ -243,7 +256,7 @@ static bool in_ring(const void *shape, const double *x)
 }
 sph_status sph_add_ring(sph_sim *sim, uint32_t set, const double *centre, double inner, double outer, const double *v)
 {
-    if (!centre)
+    if (!sim || !centre)
         return bad(sim, "centre", "a position", 0);
     if (!(inner >= 0) || !(outer > inner) || !(outer < 1e15))
         return bad(sim, "outer", "finite and > inner >= 0", outer);
@@ -304,7 +317,8 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
         return st;
     if (!fn)
         return bad(sim, "fn", "a function", 0);
-    sph_buffer *b = &sim->buf[sim->cur];
+    /* values wait in the buffer that is not in use until all were seen to be right */
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers];
     double rho0 = sim->set[set].rho0;
     for (uint32_t i = 0; i < sim->now.count; i++) {
         if (b->set[0][i] != set)
@@ -320,8 +334,15 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
         if (!(rho > 0 && rho < 100 * rho0))
             return bad(sim, "field density", "between 0 and 100 rho0", rho);
         for (int k = 0; k < SPH_DIM; k++)
-            b->vel[k][i] = (sph_real)v[k];
-        b->rho[0][i] = (sph_real)((rho - rho0) / rho0);
+            wait->vel[k][i] = (sph_real)v[k];
+        wait->rho[0][i] = (sph_real)((rho - rho0) / rho0);
+    }
+    for (uint32_t i = 0; i < sim->now.count; i++) {
+        if (b->set[0][i] != set)
+            continue;
+        for (int k = 0; k < SPH_DIM; k++)
+            b->vel[k][i] = wait->vel[k][i];
+        b->rho[0][i] = wait->rho[0][i];
     }
     sim->now.primed = false;
     return SPH_OK;
@@ -391,13 +412,19 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface)
         return bad(sim, "surface", "finite, with gravity along one axis", surface);
     const sph_set *s = &sim->set[set];
     double g = sim->cfg.gravity[axis];
-    sph_buffer *b = &sim->buf[sim->cur];
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers]; /* as sph_apply_field */
     for (uint32_t i = 0; i < sim->now.count; i++)
         if (b->set[0][i] == set) {
             double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->grid.quantum;
             double p = s->rho0 * g * (x - surface); /* g < 0: below the surface p > 0 */
-            b->rho[0][i] = (sph_real)sph_density_of(sim, s, p > 0 ? p : 0);
+            double d = sph_density_of(sim, s, p > 0 ? p : 0);
+            if (!(d >= -1 && d < 99))
+                return bad(sim, "surface", "a depth at which density stays below 100 rho0", surface);
+            wait->rho[0][i] = (sph_real)d;
         }
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        if (b->set[0][i] == set)
+            b->rho[0][i] = wait->rho[0][i];
     sim->now.primed = false;
     return SPH_OK;
 }
@@ -443,8 +470,8 @@ static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
         return bad(sim, "wall.kind", "a kind that was compiled in (modules.h)", w->kind);
     if (!SPH_WITH_MOVING_WALLS && w->motion)
         return bad(sim, "wall.motion", "null: moving walls were left out (modules.h)", 1);
-    if ((st = check_least_0(sim, "wall.strength", w->strength, 1e30f)) != SPH_OK)
-        return st;
+    if (!(w->strength >= 0 && w->strength < 1e30))
+        return bad(sim, "wall.strength", ">= 0", w->strength);
     if (w->layers > 64)
         return bad(sim, "wall.layers", "0 .. 64", w->layers);
     if (sim->groups == SPH_MAX_GROUPS)
@@ -515,8 +542,10 @@ static void bound_region(sph_sim *sim, sph_set *s)
         reach[2] = s->half[1] * sph_abs(t2);
 #endif
         double r = reach[0] + reach[1] + reach[2];
-        s->low[k] = to_quanta(sim, s->origin[k] - r) - 1;
-        s->high[k] = to_quanta(sim, s->origin[k] + r) + 1;
+        /* no further than a domain's length outside: nothing is found there, and integers stay small */
+        const double low = s->origin[k] - r, high = s->origin[k] + r, far = sim->grid.length[k];
+        s->low[k] = low > -far ? low < 2 * far ? to_quanta(sim, low) - 1 : 2 * sim->grid.extent[k] - 1 : -sim->grid.extent[k];
+        s->high[k] = high > -far ? high < 2 * far ? to_quanta(sim, high) + 1 : 2 * sim->grid.extent[k] - 1 : -sim->grid.extent[k];
     }
 }
 
@@ -680,6 +709,8 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
     for (int k = 0; k < SPH_DIM; k++) {
         if (!(hi[k] > lo[k]) || !(sph_abs(lo[k]) < 1e15) || !(sph_abs(hi[k]) < 1e15))
             return bad(sim, "hi", "finite and > lo on every axis", hi[k]);
+        if (!near_domain(sim, k, lo[k], hi[k]))
+            return bad(sim, "hi", "a box within a domain's length of the domain", hi[k]);
         axis_lattice *a = &b.ax[k];
         uint32_t n = intervals(hi[k] - lo[k], sim->cfg.spacing);
         if (n == 0 || n > 100000000u)
@@ -812,13 +843,20 @@ sph_status sph_remove_wall_at(sph_sim *sim, uint32_t group, double t)
         sim->now.primed = false; /* forces must be made anew without the wall */
     return SPH_OK;
 }
-sph_status sph_remove_wall(sph_sim *sim, uint32_t group) { return sph_remove_wall_at(sim, group, sim->now.time); }
+sph_status sph_remove_wall(sph_sim *sim, uint32_t group)
+{
+    return sph_remove_wall_at(sim, group, sim ? sim->now.time : 0);
+}
 
 void sph_motion_table(void *ctx, double t, double *displacement, double *velocity)
 {
     const sph_table *m = ctx;
     uint32_t i = 0;
     double x, v = 0;
+    for (int k = 0; k < SPH_DIM; k++)
+        displacement[k] = velocity[k] = 0;
+    if (!m || !m->rows || !m->t || !m->x || m->axis >= SPH_DIM)
+        return;
     while (i + 1 < m->rows && m->t[i + 1] <= t)
         i++;
     if (t < m->t[0]) {
@@ -829,8 +867,6 @@ void sph_motion_table(void *ctx, double t, double *displacement, double *velocit
         v = (m->x[i + 1] - m->x[i]) / (m->t[i + 1] - m->t[i]);
         x = m->x[i] + v * (t - m->t[i]);
     }
-    for (int k = 0; k < SPH_DIM; k++)
-        displacement[k] = velocity[k] = 0;
     displacement[m->axis] = x - m->x[0];
     velocity[m->axis] = v;
 }

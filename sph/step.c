@@ -697,6 +697,8 @@ static sph_status run_program(sph_sim *sim, uint64_t budget)
 
 sph_status sph_ready(sph_sim *sim)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "sph_ready", "between steps", 0, SPH_NO_PARTICLE);
     if (sim->now.primed)
@@ -720,6 +722,8 @@ static sph_status advance(sph_sim *sim, double t_end, uint64_t budget)
 
 sph_status sph_step_to(sph_sim *sim, double t_end)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "sph_step", "after the step begun in slices", 0, SPH_NO_PARTICLE);
     if (!(t_end > sim->now.time))
@@ -732,7 +736,7 @@ sph_status sph_step(sph_sim *sim) { return sph_step_to(sim, 1e300); }
 
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget)
 {
-    if (budget == 0)
+    if (!sim || budget == 0)
         return sph_error(sim, SPH_BAD_ARGUMENT, "budget", "> 0", 0, SPH_NO_PARTICLE);
     const uint64_t step = sim->now.step;
     sph_status st = advance(sim, 1e300, budget);
@@ -740,12 +744,18 @@ sph_status sph_step_slice(sph_sim *sim, uint64_t budget)
     return st == SPH_OK && sim->now.step == step ? SPH_NOT_DONE : st;
 }
 
-void sph_step_cancel(sph_sim *sim) { sim->begun = false; }
+void sph_step_cancel(sph_sim *sim)
+{
+    if (sim)
+        sim->begun = false;
+}
 
-double sph_time(const sph_sim *sim) { return sim->now.time; }
+double sph_time(const sph_sim *sim) { return sim ? sim->now.time : 0; }
 
 void sph_get_step(const sph_sim *sim, sph_step_info *out)
 {
+    if (!sim || !out)
+        return;
     memset(out, 0, sizeof *out);
     out->step = sim->now.step;
     out->time = sim->now.time;

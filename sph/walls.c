@@ -198,7 +198,10 @@ sph_status sph_move_groups(sph_sim *sim, double t)
             if (!(sph_abs(x[k]) < 2 * sim->grid.length[k]) || !(sph_abs(v[k]) < 1e15))
                 return sph_error(sim, SPH_NOT_FINITE, "motion of a wall", "finite and inside the domain", x[k],
                                  SPH_NO_PARTICLE);
-            double q = x[k] / sim->grid.quantum;
+            double q = x[k] / sim->grid.quantum, leap = sph_abs(q - (double)s->moved[k]) * sim->grid.quantum;
+            if (leap >= sim->grid.length[k])
+                return sph_error(sim, SPH_MOVED_TOO_FAR, "motion of a wall", "less than the domain's length in a step", leap,
+                                 SPH_NO_PARTICLE);
             s->moved[k] = (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
             s->vel[k] = v[k];
         }
@@ -244,7 +247,7 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
             continue;
         double x[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++)
-            x[k] = (double)(b->pos[k][i] - sph_wall_moved(sim, s, (uint32_t)k)) * sim->grid.quantum;
+            x[k] = ((double)b->pos[k][i] - (double)sph_wall_moved(sim, s, (uint32_t)k)) * sim->grid.quantum;
         double d = depth_inside(s, x);
         if (d > 0 && (found == SPH_MAX_SETS || d < *depth)) {
             found = w;
@@ -254,14 +257,23 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
     return found;
 }
 
+/* a place of axis k from which a move of one cell still fits into an integer: at most about a domain's length outside */
+static sph_pos near_quanta(const sph_sim *sim, int k, int64_t q)
+{
+    const sph_pos low = -sim->grid.extent[k], high = 2 * sim->grid.extent[k] - sim->grid.cell_size[k] - 1;
+    return q < low ? low : q > high ? high : (sph_pos)q;
+}
+
 #define SPH_PUT_BACK_SPACINGS 0.1 /* how far off the wall a particle is put back */
 
 static void put_back(sph_sim *sim, const sph_buffer *b, uint32_t i, const sph_set *s, double depth)
 {
     double vn = 0, off = depth + SPH_PUT_BACK_SPACINGS * sim->cfg.spacing;
     for (int k = 0; k < SPH_DIM; k++) {
+        const double most = 4 * (double)sim->grid.extent[k];
         double q = off * s->normal[k] / sim->grid.quantum;
-        b->pos[k][i] += (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
+        q = q < -most ? -most : q > most ? most : q;
+        b->pos[k][i] = near_quanta(sim, k, b->pos[k][i] + (int64_t)(q < 0 ? q - 0.5 : q + 0.5));
         vn += ((double)b->vel[k][i] - sph_wall_velocity(sim, s, (uint32_t)k)) * s->normal[k];
     }
     if (vn < 0)
@@ -304,8 +316,8 @@ void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
         /* one loop a wall over integers: compilers make vectors of it */
         sph_pos lo[SPH_DIM], hi[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
-            lo[k] = s->low[k] + sph_wall_moved(sim, s, (uint32_t)k);
-            hi[k] = s->high[k] + sph_wall_moved(sim, s, (uint32_t)k);
+            lo[k] = near_quanta(sim, k, (int64_t)s->low[k] + sph_wall_moved(sim, s, (uint32_t)k));
+            hi[k] = near_quanta(sim, k, (int64_t)s->high[k] + sph_wall_moved(sim, s, (uint32_t)k));
         }
         for (uint32_t i = first; i < last; i++) {
             int in = 1;
