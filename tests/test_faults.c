@@ -265,7 +265,7 @@ static void a_thrown_position_breaks_nothing(void **state)
             if (!slices(after))
                 break;
             for (uint32_t k = 0; k < 4 * SPH_DIM; k++) {
-                const sph_pos e = bed.sim->extent[k / 4], far[] = {-e, -1, e, 2 * e - 1 - bed.sim->cell_size[k / 4]};
+                const sph_pos e = bed.sim->grid.extent[k / 4], far[] = {-e, -1, e, 2 * e - 1 - bed.sim->grid.cell_size[k / 4]};
                 snapshot s;
                 rewind_bed();
                 keep_state(bed.sim, &s);
