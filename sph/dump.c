@@ -296,6 +296,7 @@ static bool move_crc(stream *s, const char *name)
 
 /* ---- preamble and end ---- */
 
+#if SPH_WITH_DUMP
 static bool write_preamble(stream *s, bool full, uint64_t bytes, uint32_t sections)
 {
     unsigned char *p = s->piece;
@@ -311,6 +312,7 @@ static bool write_preamble(stream *s, bool full, uint64_t bytes, uint32_t sectio
     chain(s, (uint32_t)get_number(p + 28, 4));
     return move_piece(s, DUMP_PREAMBLE);
 }
+#endif
 
 #if SPH_WITH_RESTORE
 static bool read_preamble(stream *s, uint64_t *bytes, uint64_t *sections)

@@ -19,13 +19,17 @@ static __attribute__((noinline)) sph_status idle(sph_sim *sim, const char *call)
     return sim->begun ? sph_error(sim, SPH_BAD_STATE, call, "between steps", 0, SPH_NO_PARTICLE) : SPH_OK;
 }
 
-static __attribute__((noinline)) sph_status check_least_0(sph_sim *sim, const char *what, double v, float below)
+/* 0, which asks for a default, or between 1/most and most, whose squares and quotients stay in a double's range */
+static __attribute__((noinline)) sph_status check_positive(sph_sim *sim, const char *what, double v, float most)
 {
-    /* nothing so small that dividing by it leaves the range of numbers */
-    return v == 0 || (v * (double)below >= 1 && v < (double)below) ? SPH_OK : bad(sim, what, "0, or > 0 and not extreme", v);
+    if (v == 0 || (v >= 1 / (double)most && v <= (double)most))
+        return SPH_OK;
+    return bad(sim, what, most > 1e20f ? "0 or 1e-30 .. 1e30" : "0 or 1e-15 .. 1e15", v);
 }
 
+#if SPH_HAS_WALLS || SPH_WITH_SHAPES
 static __attribute__((noinline)) uint32_t round_up(double x) { return x <= 0 ? 0 : x >= 4e9 ? 4000000000u : (uint32_t)(x + 0.999999); }
+#endif
 
 /* number of lattice intervals in a length, at least one; 0 if there are absurdly many */
 static __attribute__((noinline)) uint32_t intervals(double length, double dx)
@@ -72,9 +76,9 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
     if (!set)
         return bad(sim, "set", "a place for the set's number", 0);
     double mass = f ? f->mass : 0, rho0 = f ? f->rho0 : 0, c0 = f ? f->sound_speed : 0;
-    if ((st = check_least_0(sim, "fluid.mass", mass, 1e30f)) != SPH_OK ||
-        (st = check_least_0(sim, "fluid.rho0", rho0, 1e30f)) != SPH_OK ||
-        (st = check_least_0(sim, "fluid.sound_speed", c0, 1e15f)) != SPH_OK)
+    if ((st = check_positive(sim, "fluid.mass", mass, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, "fluid.rho0", rho0, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, "fluid.sound_speed", c0, 1e15f)) != SPH_OK)
         return st;
     if (sim->sets == sim->cfg.max_sets)
         return sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most max_sets", sim->sets, SPH_NO_PARTICLE);
@@ -189,7 +193,7 @@ sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const d
 }
 
 /* a lattice must begin and end within a domain's length of the domain: its points are all looked at, one by one */
-static bool near_domain(const sph_sim *sim, int k, double lo, double hi)
+static __attribute__((noinline)) bool near_domain(const sph_sim *sim, int k, double lo, double hi)
 {
     return lo >= sim->cfg.lo[k] - sim->grid.length[k] && hi <= sim->cfg.hi[k] + sim->grid.length[k];
 }
@@ -466,8 +470,8 @@ static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
         return bad(sim, "wall.kind", "a kind that was compiled in (modules.h)", w->kind);
     if (!SPH_WITH_MOVING_WALLS && w->motion)
         return bad(sim, "wall.motion", "null: moving walls were left out (modules.h)", 1);
-    if ((st = check_least_0(sim, "wall.strength", w->strength, 1e30f)) != SPH_OK)
-        return st;
+    if (!(w->strength >= 0 && w->strength < 1e30))
+        return bad(sim, "wall.strength", ">= 0", w->strength);
     if (w->layers > 64)
         return bad(sim, "wall.layers", "0 .. 64", w->layers);
     if (sim->groups == SPH_MAX_GROUPS)
@@ -524,6 +528,13 @@ static sph_set *new_wall_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
     return s;
 }
 
+/* no further than a domain's length outside: nothing is found there, and integers stay small */
+static __attribute__((noinline)) sph_pos bounded_quanta(const sph_sim *sim, int k, double x)
+{
+    const double far = sim->grid.length[k];
+    return to_quanta(sim, x < -far ? -far : x > 2 * far ? 2 * far : x);
+}
+
 /* the box in quanta around the region behind a face */
 static void bound_region(sph_sim *sim, sph_set *s)
 {
@@ -538,10 +549,8 @@ static void bound_region(sph_sim *sim, sph_set *s)
         reach[2] = s->half[1] * sph_abs(t2);
 #endif
         double r = reach[0] + reach[1] + reach[2];
-        /* no further than a domain's length outside: nothing is found there, and integers stay small */
-        const double low = s->origin[k] - r, high = s->origin[k] + r, far = sim->grid.length[k];
-        s->low[k] = low > -far ? low < 2 * far ? to_quanta(sim, low) - 1 : 2 * sim->grid.extent[k] - 1 : -sim->grid.extent[k];
-        s->high[k] = high > -far ? high < 2 * far ? to_quanta(sim, high) + 1 : 2 * sim->grid.extent[k] - 1 : -sim->grid.extent[k];
+        s->low[k] = bounded_quanta(sim, k, s->origin[k] - r) - 1;
+        s->high[k] = bounded_quanta(sim, k, s->origin[k] + r) + 1;
     }
 }
 

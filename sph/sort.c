@@ -38,8 +38,7 @@ static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
     if (*q >= 0 && !high)
         return 0;
     const uint32_t face = sim->cfg.face[k][high];
-    const bool periodic = SPH_IS(face, PERIODIC);
-    if (periodic)
+    if (SPH_IS(face, PERIODIC))
         *q += high ? -sim->grid.extent[k] : sim->grid.extent[k];
     else if (SPH_IS(face, SYMMETRY) || SPH_IS(face, MIRROR_NO_SLIP))
         *q = high ? 2 * sim->grid.extent[k] - 1 - *q : -*q;
@@ -47,7 +46,7 @@ static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
         return 2;
     /* a move of a whole domain may end a quantum outside again */
     *q = *q < 0 ? 0 : *q < sim->grid.extent[k] ? *q : sim->grid.extent[k] - 1;
-    return periodic ? 0 : 1;
+    return SPH_IS(face, PERIODIC) ? 0 : 1;
 }
 
 /* the same for a particle; reflections turn the velocity */
@@ -100,6 +99,12 @@ static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_
     return any == 0;
 }
 
+/* how far a wall goes in this step, quanta */
+static int64_t wall_step(const sph_sim *sim, const sph_set *s, uint32_t k)
+{
+    return (int64_t)sph_wall_moved(sim, s, k) - sim->now.group[s->group].moved[k];
+}
+
 /* wall particles go where their group goes; their density changes only by continuity */
 static bool move_wall(const sph_sim *sim, const advance *a, const sph_set *s, uint32_t i, uint32_t n, block *o, uint32_t at)
 {
@@ -111,8 +116,7 @@ static bool move_wall(const sph_sim *sim, const advance *a, const sph_set *s, ui
     for (uint32_t j = 0; j < n; j++) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             /* less than a domain's length (sph_move_groups), though the difference alone may not fit into a position */
-            const int64_t by = moves ? (int64_t)sph_wall_moved(sim, s, k) - sim->now.group[s->group].moved[k] : 0;
-            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + by);
+            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + (moves ? wall_step(sim, s, k) : 0));
             fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->grid.extent[k]);
             o->vel[k][at + j] = b->vel[k][i + j];
         }
