@@ -207,7 +207,7 @@ struct sph_pass {
      SPH_WITH_WALL_MONAGHAN_KOS << SPH_WALL_MONAGHAN_KOS | SPH_WITH_WALL_GHOST << SPH_WALL_GHOST |          \
      SPH_WITH_WALL_ADAMI << SPH_WALL_ADAMI)
 
-_Static_assert(SPH_KERNELS_IN && SPH_SCHEMES_IN && SPH_EOSES_IN && SPH_INTEGRATORS_IN,
+_Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 && SPH_INTEGRATORS_IN != 0,
                "modules.h: at least one smoothing kernel, scheme, equation of state and integrator must be in");
 
 SPH_INLINE bool sph_in(uint32_t mask, uint32_t choice) { return choice < 32 && mask >> choice & 1; }
