@@ -66,7 +66,7 @@ double = $(if $(filter %d,$(1)),1,0)
 defines = -DSPH_DIM=$(call dim,$(1)) -DSPH_DOUBLE=$(call double,$(1))
 
 KERNEL := $(wildcard sph/*.c)
-PORT   := $(filter-out $(wildcard port/*_bare*.c),$(wildcard port/*.c))
+PORT   := $(filter-out port/cortexm.c,$(wildcard port/*.c))
 SCENES := $(wildcard examples/scenes/*.c)
 PROGS  := $(wildcard examples/*.c)
 TOOLS  := $(filter-out tools/build.c,$(wildcard tools/*.c))
@@ -79,7 +79,7 @@ build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests
+.PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests targets travel refuse
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
@@ -175,6 +175,17 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 bits:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
 
+# ---- other machines (port/targets.txt), those that this one has tools for ----
+
+targets:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/targets.sh $(TARGETS)
+# dumps written on one machine go on on another
+travel:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/travel.sh
+# builds and machines that break bits are refused, and what they would break is found and named
+refuse:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/refuse.sh
+
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
 bench:
@@ -205,6 +216,9 @@ help:
 	'make demo       a 2-D dam break: picture, dump and history (a C compiler and make are enough)' \
 	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
 	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
+	'make targets    the golden runs on every machine of port/targets.txt that has tools here  -> $(BUILD)/targets.csv' \
+	'make travel     dumps from one machine go on on another with the same bits' \
+	'make refuse     builds that break bits are refused; the first difference is named' \
 	'make bench      speed and memory, gcc and clang, native and portable      -> $(BUILD)/bench.csv' \
 	'make size       bytes of arena, code, constants and stack                 -> $(BUILD)/size.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
