@@ -79,7 +79,7 @@ build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests targets travel refuse
+.PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests targets travel refuse wasm browser
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
@@ -186,6 +186,27 @@ travel:
 refuse:
 	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/refuse.sh
 
+# ---- the page of examples/wasm in $(BUILD)/wasm: plain files that open without a server ----
+
+WASM_CC ?= clang --target=wasm32-unknown-unknown
+wasm: $(BUILD)/wasm/tank.wasm.js $(patsubst examples/wasm/%,$(BUILD)/wasm/%,$(wildcard examples/wasm/*.html examples/wasm/*.css examples/wasm/app.js))
+$(BUILD)/wasm/%: examples/wasm/%
+	@mkdir -p $(@D)
+	$(Q)cp $< $@
+$(BUILD)/wasm/tank.wasm: examples/wasm/tank.c examples/wasm/tank.h port/wasm/memory.c port/wasm/string.h $(KERNEL) $(wildcard sph/*.h)
+	$(say) wasm $@
+	@mkdir -p $(@D)
+	$(Q)$(WASM_CC) $(BITS) -O2 -msimd128 -mbulk-memory $(WARN) -Wno-pass-failed -nostdlib -Iport/wasm \
+		-Wl,--no-entry,--strip-all $(filter %.c,$^) -o $@
+$(BUILD)/wasm/tank.wasm.js: $(BUILD)/wasm/tank.wasm
+	$(Q)printf 'const TANK_WASM = "%s";\n' "$$(base64 <$< | tr -d '\n')" >$@
+$(BUILD)/tank_host: $(BUILD)/obj/2f/tests/tank_host.o $(BUILD)/obj/2f/examples/wasm/tank.o $(BUILD)/libsph2f.a
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+# that page in a headless browser: its hash is this machine's, its controls do what they say
+browser: wasm $(BUILD)/tank_host
+	$(Q)BUILD=$(BUILD) sh tests/browser.sh
+
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
 bench:
@@ -219,6 +240,8 @@ help:
 	'make targets    the golden runs on every machine of port/targets.txt that has tools here  -> $(BUILD)/targets.csv' \
 	'make travel     dumps from one machine go on on another with the same bits' \
 	'make refuse     builds that break bits are refused; the first difference is named' \
+	'make wasm       a page with a tank to tilt: open $(BUILD)/wasm/index.html' \
+	'make browser    that page in headless Chromium: hash, controls, picture' \
 	'make bench      speed and memory, gcc and clang, native and portable      -> $(BUILD)/bench.csv' \
 	'make size       bytes of arena, code, constants and stack                 -> $(BUILD)/size.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \

@@ -263,15 +263,16 @@ static __attribute__((noinline)) sph_real probe_add3(sph_real a, sph_real b, sph
 static const char *probe_arithmetic(void)
 {
     const sph_real eps = SPH_DOUBLE ? (sph_real)2.220446049250313e-16 : (sph_real)1.1920929e-7;
-    sph_real e = eps, one = 1;
-    /* (1+e)(1-e) = 1 - e^2 rounds to 1; contracted, the sum with -1 keeps -e^2 */
-    if (probe_mul_add(one + e, one - e, -one) != 0)
-        return "contraction of a*b+c (build with -ffp-contract=off)";
+    /* volatile: compilers carry constants into functions that are not inlined and then round as IEEE 754 says */
+    const volatile sph_real e = eps, one = 1, half = (sph_real)0.5;
     /* (1 + e/2) + e/2 is 1 twice rounded, 1 + e in excess precision */
     if (probe_add3(one, e / 2, e / 2) != 1)
         return "excess precision (use SSE2 arithmetic on 32-bit x86)";
-    sph_real small = SPH_DOUBLE ? (sph_real)2.2250738585072014e-308 : (sph_real)1.17549435e-38f;
-    if (probe_mul(small, (sph_real)0.5) == 0)
+    /* (1+e)(1-e) = 1 - e^2 rounds to 1; contracted (or in excess precision), the sum with -1 keeps -e^2 */
+    if (probe_mul_add(one + e, one - e, -one) != 0)
+        return "contraction of a*b+c (build with -ffp-contract=off)";
+    const volatile sph_real small = SPH_DOUBLE ? (sph_real)2.2250738585072014e-308 : (sph_real)1.17549435e-38f;
+    if (probe_mul(small, half) == 0)
         return "flush to zero of subnormal numbers";
     return NULL;
 }
