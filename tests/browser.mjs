@@ -85,7 +85,7 @@ const blue = `(() => { const c = document.getElementById('view'), d = c.getConte
   let n = 0; for (let k = 0; k < d.length; k += 4) if (d[k + 2] > d[k] + 60) n++; return n / (d.length / 4); })()`;
 
 async function hashes() {
-  await open(`#test=${before},${degrees},${after}`, 1280, 900, false, 'light');
+  await open(`#test=${before},${degrees},${after}`, 900, 800, false, 'light');
   await until("document.title.startsWith('hash ') || document.getElementById('message').textContent !== ''", 'the hashes');
   const title = await value('document.title');
   expect(title === `hash ${await value('document.body.dataset.test || ""')}`, `hashes are shown: ${title}; ${await text('message')}`);

@@ -9,7 +9,7 @@
 const BUDGET = 11;   // ms of a frame that steps may take
 const MAX_TILT = 60; // degrees, by slider, keys and drag
 const SHADES = 16;   // colours between slow and fast water
-const FAST = 5;      // m/s, the brightest colour
+const FAST = 7;      // m/s, the brightest colour
 
 const el = (id) => document.getElementById(id);
 const view = el('view');
@@ -126,7 +126,7 @@ function fit() {
 function frameTank(width, height) {
   const a = held ? 0 : (tilt * Math.PI) / 180;
   const [w, h] = [width + 0.5, height + 0.5];
-  const turned = Math.abs(tilt) < 30 || held ? 30 : Math.abs(tilt);
+  const turned = held ? 0 : Math.max(25, Math.abs(tilt));
   const [c, s] = [Math.cos((turned * Math.PI) / 180), Math.sin((turned * Math.PI) / 180)];
   const scale = Math.min(view.width / (w * c + h * s), view.height / (w * s + h * c));
   pen.setTransform(1, 0, 0, 1, 0, 0);
@@ -137,26 +137,33 @@ function frameTank(width, height) {
   pen.translate(-width / 2, -height / 2);
 }
 
-// one path for each shade: a thousand particles cost sixteen fills
-function drawWater() {
-  const n = tank.draw();
-  const p = new Float32Array(tank.memory.buffer, tank.picture(), 3 * n);
-  const r = 0.62 * tank.spacing();
+// particles of one shade as one path, so that a thousand of them cost a fill
+function shadePaths(p, radius) {
   const paths = shades.map(() => new Path2D());
   for (let i = 0; i < p.length; i += 3) {
     const path = paths[Math.min(SHADES - 1, Math.floor((p[i + 2] / FAST) * SHADES))];
-    path.moveTo(p[i] + r, p[i + 1]);
-    path.arc(p[i], p[i + 1], r, 0, 2 * Math.PI);
+    path.moveTo(p[i] + radius, p[i + 1]);
+    path.arc(p[i], p[i + 1], radius, 0, 2 * Math.PI);
   }
-  paths.forEach((path, k) => {
-    pen.fillStyle = shades[k];
-    pen.fill(path);
-  });
+  return paths;
+}
+
+// first wide discs, which close the gaps, then the particles themselves
+function drawWater() {
+  const n = tank.draw();
+  const p = new Float32Array(tank.memory.buffer, tank.picture(), 3 * n);
+  for (const size of [0.85, 0.6]) {
+    shadePaths(p, size * tank.spacing()).forEach((path, k) => {
+      pen.fillStyle = shades[k];
+      pen.fill(path);
+    });
+  }
   return n;
 }
 
 function draw() {
   const [w, h] = [tank.width(), tank.height()];
+  pen.save();
   frameTank(w, h);
   const edge = 0.09;
   pen.fillStyle = colours.wall;
@@ -165,8 +172,12 @@ function draw() {
   pen.fill();
   pen.fillStyle = colours.inside;
   pen.fillRect(0, 0, w, h);
+  pen.beginPath();
+  pen.rect(0, 0, w, h);
+  pen.clip();
   const water = drawWater();
-  el('particles').textContent = `${water} water + ${tank.particles() - water} wall`;
+  pen.restore();
+  el('particles').textContent = `${water.toLocaleString('en')} + ${tank.particles() - water}`;
 }
 
 function showFigures() {
