@@ -162,7 +162,7 @@ struct sph_sim {
     sph_report report;
     /* marks */
     uint32_t mark_particles, mark_cell;
-    uint64_t mark_work, last_work, last_pairs;
+    uint64_t mark_work, mark_slice, last_work, last_pairs;
     uint32_t last_passes, last_limit;
     double last_dt;
 };

@@ -327,7 +327,8 @@ void sph_arena_report(const sph_sim *sim, void (*fn)(void *ctx, const char *name
 void sph_get_usage(const sph_sim *sim, sph_usage *out)
 {
     *out = (sph_usage){sim->arena_bytes, sim->arena_used,  sim->mark_particles, sim->cfg.max_particles, sim->cells,
-                       sim->mark_cell,   sim->mark_work, sim->sets,           sim->groups};
+                       sim->mark_cell,   sim->mark_work, sim->mark_slice,     sim->sets,
+                       sim->groups};
 }
 
 const sph_report *sph_last(const sph_sim *sim) { return &sim->report; }

@@ -287,6 +287,7 @@ typedef struct sph_usage {
     uint32_t cells;                    /* cells of the domain */
     uint32_t cell_particles;           /* most particles in one cell */
     uint64_t step_work;                /* most work units in one step */
+    uint64_t slice_work;               /* most work units in one slice */
     uint32_t sets, groups;
 } sph_usage;
 #define sph_get_usage SPH_NAME(get_usage)
@@ -427,6 +428,13 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
    filter and summation (2 with Runge-Kutta). Passes without chunks (starting a sort, walls that move) are not counted. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
+/* Both bounds as numbers: what the last chunks may add to a budget, and a whole step of `sweeps` (E) sweeps. */
+#define SPH_AROUND_ (SPH_DIM == 1 ? 3u : SPH_DIM == 2 ? 9u : 27u)
+#define SPH_SLICE_EXTRA(threads, n, c)                                                                      \
+    ((uint64_t)(threads) * (32u * (SPH_AROUND_ * (uint64_t)(c) * (c) + 1u) > (n) ?                          \
+                            32u * (SPH_AROUND_ * (uint64_t)(c) * (c) + 1u) : (n)))
+#define SPH_STEP_WORK(sweeps, n, c, cells)                                                                  \
+    ((uint64_t)(sweeps) * (SPH_AROUND_ * (uint64_t)(c) * (n) + (cells) + 32u) + 16u * (uint64_t)(n))
 /* Gives up a step that was begun in slices. */
 #define sph_step_cancel SPH_NAME(step_cancel)
 void sph_step_cancel(sph_sim *sim);

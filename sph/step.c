@@ -579,6 +579,8 @@ static sph_status run_program(sph_sim *sim, uint64_t budget)
             for (uint32_t t = 0; t < sim->cfg.max_threads; t++)
                 after += sim->thread[t].work;
             spent += after - before;
+            if (budget && spent > sim->mark_slice)
+                sim->mark_slice = spent;
         }
         sph_status st = end_pass(sim);
         if (st)
