@@ -78,7 +78,9 @@ build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all examples demo test golden bits bench size size-gate slices baremetal validate coverage lint help clean tests
+.PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests
+.PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
+.PHONY: size-gate slices baremetal
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
@@ -139,6 +141,9 @@ builds_test_kernels := $(BUILDS)
 builds_test_conserve := $(BUILDS)
 builds_test_bits    := $(BUILDS)
 builds_test_fail    := 1d 2f 3f
+builds_test_entry   := 1f 2f 2d 3d
+builds_test_dumps   := $(BUILDS)
+builds_test_faults  := 1d 2f 3f
 builds_test_api     := $(BUILDS)
 builds_test_walls   := $(BUILDS)
 builds_test_eos_schemes := $(BUILDS)
@@ -161,6 +166,7 @@ test:
 	$(Q)CC="$(CC)" sh tests/need_cmocka.sh
 	$(Q)$(MAKE) --no-print-directory tests
 	$(Q)EXEC="$(EXEC)" sh tests/run.sh $(BUILD) $(test_bins)
+	$(Q)sh tests/entries.sh
 	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/bits.sh --quick
 
 tests: $(test_bins)
@@ -173,6 +179,53 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 
 bits:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
+
+# ---- fuzzing: each target takes a string of bytes; its first byte chooses the build (tests/fuzz/entry.c) ----
+
+FUZZ_TARGETS := config particles walls dumps
+FUZZ_SECONDS ?= 60
+fuzz_obj := $(foreach b,1d 2f 3d,$(patsubst %.c,$(BUILD)/obj/$(b)/%.o,$(filter-out %/entry.c %/replay.c,$(wildcard tests/fuzz/*.c))))
+fuzz_lib := $(foreach b,1d 2f 3d,$(BUILD)/libsph$(b).a)
+$(BUILD)/obj/fuzz_%.o: tests/fuzz/entry.c
+	$(say) cc "$< ($*)"
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(ALL_CFLAGS) $(HOST_CFLAGS) -DFUZZ_TARGET=$* -MMD -MP -c $< -o $@
+$(BUILD)/fuzz_%: $(BUILD)/obj/fuzz_%.o $(fuzz_obj) $(fuzz_lib)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) -fsanitize=fuzzer $^ -o $@ -lm
+$(BUILD)/replay_%: $(BUILD)/obj/fuzz_%.o $(BUILD)/obj/tests/fuzz/replay.o $(fuzz_obj) $(fuzz_lib)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
+fuzz-programs: $(FUZZ_TARGETS:%=$(BUILD)/fuzz_%)
+replay-programs: $(FUZZ_TARGETS:%=$(BUILD)/replay_%)
+
+fuzz:
+	$(Q)BUILD=$(BUILD) CLANG="$(CLANG)" MAKE="$(MAKE)" TARGETS="$(FUZZ_TARGETS)" SECONDS_EACH="$(FUZZ_SECONDS)" sh tests/fuzz.sh run
+
+fuzz-replay:
+	$(Q)BUILD=$(BUILD) CC="$(CC)" CLANG="$(CLANG)" MAKE="$(MAKE)" TARGETS="$(FUZZ_TARGETS)" sh tests/fuzz.sh replay
+
+# ---- sanitizers: the tests under them ----
+
+asan_flags := -fsanitize=address,undefined
+tsan_flags := -fsanitize=thread
+msan_flags := -fsanitize=memory -fsanitize-memory-track-origins
+sanitized = $(MAKE) --no-print-directory $(1) BUILD=$(BUILD)/$(2) CC="$(CLANG)" WARN="-Wall -Wno-pass-failed" \
+	OPT="-O1 -g -fno-omit-frame-pointer" CFLAGS="$($(2)_flags) -fno-sanitize-recover=all" LDFLAGS="$($(2)_flags)"
+TSAN_TESTS ?= $(BUILD)/tsan/tests/test_threads_1d $(BUILD)/tsan/tests/test_threads_2f $(BUILD)/tsan/tests/test_threads_3f
+asan:
+	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
+	$(Q)$(call sanitized,tests,asan)
+	$(Q)ASAN_OPTIONS=detect_leaks=0 sh tests/run.sh $(BUILD)/asan $(test_bins:$(BUILD)/%=$(BUILD)/asan/%)
+tsan:
+	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
+	$(Q)$(call sanitized,$(TSAN_TESTS),tsan)
+	$(Q)TSAN_OPTIONS=halt_on_error=1 sh tests/run.sh $(BUILD)/tsan $(TSAN_TESTS)
+# the framework-free golden runs: a library that was not built with this sanitizer cannot be linked in
+msan:
+	$(Q)$(call sanitized,golden,msan)
+	$(Q)$(BUILD)/msan/golden >$(BUILD)/msan/golden.csv
+	$(Q)sed '/^\#/d' tests/golden.csv | diff - $(BUILD)/msan/golden.csv && echo "msan: $$(wc -l <$(BUILD)/msan/golden.csv) golden runs, no use of an unset byte, same hashes"
 
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
@@ -220,6 +273,9 @@ help:
 	'make slices     the longest slice on an emulated Cortex-M4F               -> $(BUILD)/slices.csv' \
 	'make baremetal  a tank at a fixed rate and a dam break in 192 KiB, on the same -> $(BUILD)/baremetal.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
+	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
+	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
+	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck and clang-tidy, those that are installed' \
 	'make clean      removes $(BUILD)' \

@@ -4,25 +4,27 @@
 #include "internal.h"
 #include "kernels.h"
 
-uint32_t sph_count(const sph_sim *sim) { return sim->now.count; }
+uint32_t sph_count(const sph_sim *sim) { return sim ? sim->now.count : 0; }
 
 static void position(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *x)
 {
     for (int k = 0; k < SPH_DIM; k++)
-        x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->quantum;
+        x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
 }
 
+#if SPH_WITH_TOTALS || SPH_WITH_PROBES
 static bool is_fluid(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 {
     uint8_t s = b->set[0][i];
     return s != SPH_DEAD && sim->set[s].role == SPH_ROLE_FLUID;
 }
+#endif
 
 sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
 {
-    const sph_buffer *b = &sim->buf[sim->cur];
-    if (i >= sim->now.count || !out)
+    if (!sim || i >= sim->now.count || !out)
         return SPH_BAD_ARGUMENT;
+    const sph_buffer *b = &sim->buf[sim->cur];
     memset(out, 0, sizeof *out);
     out->id = b->id[0][i];
     out->set = b->set[0][i];
@@ -44,6 +46,7 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
     return SPH_OK;
 }
 
+#if SPH_WITH_TOTALS
 /* energy of compression from rho0, J/kg: integral of p/rho^2 d rho */
 static double compression_energy(const sph_sim *sim, const sph_set *s, double d)
 {
@@ -81,6 +84,8 @@ static void add_particle_totals(const sph_sim *sim, const sph_buffer *b, uint32_
 
 void sph_get_totals(const sph_sim *sim, sph_totals *out)
 {
+    if (!sim || !out)
+        return;
     const sph_buffer *b = &sim->buf[sim->cur];
     memset(out, 0, sizeof *out);
     for (uint32_t i = 0; i < sim->now.count; i++)
@@ -96,6 +101,9 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
     out->removed_mass = sim->now.removed_mass;
 }
 
+#endif
+
+#if SPH_WITH_PROBES
 /* ---- probes ---- */
 
 /* W(r) in double for one particle */
@@ -109,12 +117,12 @@ double sph_kernel_w(const sph_sim *sim, double r)
 static void probe_one(const sph_sim *sim, const double *x, sph_probe_value *o)
 {
     const sph_buffer *b = &sim->buf[sim->cur];
-    const double reach2 = sim->support * sim->support;
+    const double reach2 = sim->grid.support * sim->grid.support;
     memset(o, 0, sizeof *o);
     for (uint32_t i = 0; i < sim->now.count; i++) {
-        double d = ((double)b->pos[0][i] * sim->quantum + sim->cfg.lo[0]) - x[0], r2 = d * d;
+        double d = ((double)b->pos[0][i] * sim->grid.quantum + sim->cfg.lo[0]) - x[0], r2 = d * d;
         for (int k = 1; k < SPH_DIM && r2 < reach2; k++) {
-            d = ((double)b->pos[k][i] * sim->quantum + sim->cfg.lo[k]) - x[k];
+            d = ((double)b->pos[k][i] * sim->grid.quantum + sim->cfg.lo[k]) - x[k];
             r2 += d * d;
         }
         if (!(r2 < reach2) || !is_fluid(sim, b, i))
@@ -148,7 +156,7 @@ static bool finite_vector(const double *x)
 
 sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out)
 {
-    if (!x || !out || !finite_vector(x))
+    if (!sim || !x || !out || !finite_vector(x))
         return SPH_BAD_ARGUMENT;
     probe_one(sim, x, out);
     return SPH_OK;
@@ -156,7 +164,7 @@ sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out)
 
 sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, uint32_t n, sph_probe_value *out)
 {
-    if (!a || !b || !out || n < 2 || !finite_vector(a) || !finite_vector(b))
+    if (!sim || !a || !b || !out || n < 2 || !finite_vector(a) || !finite_vector(b))
         return SPH_BAD_ARGUMENT;
     for (uint32_t i = 0; i < n; i++) {
         double x[SPH_DIM];
@@ -169,11 +177,11 @@ sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, 
 
 sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height)
 {
-    if (!x || !height || axis >= SPH_DIM || !finite_vector(x))
+    if (!sim || !x || !height || axis >= SPH_DIM || !finite_vector(x))
         return SPH_BAD_ARGUMENT;
     /* from above the highest fluid particle near the line down, a quarter spacing at a time */
     const sph_buffer *b = &sim->buf[sim->cur];
-    const double dx = sim->cfg.spacing, reach2 = sim->support * sim->support;
+    const double dx = sim->cfg.spacing, reach2 = sim->grid.support * sim->grid.support;
     double at[SPH_DIM], top = sim->cfg.lo[axis], low = sim->cfg.lo[axis];
     bool any = false;
     for (uint32_t i = 0; i < sim->now.count; i++) {
@@ -193,7 +201,7 @@ sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double 
         return SPH_OK;
     memcpy(at, x, sizeof at);
     double above = 0, step = 0.25 * dx;
-    for (double y = top + 2 * dx; y > low - dx; y -= step) {
+    for (double y = top + 2 * dx; y > low - dx && y - step < y; y -= step) { /* far from 0 a step may be lost */
         sph_probe_value v;
         at[axis] = y;
         probe_one(sim, at, &v);
@@ -209,6 +217,8 @@ sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double 
 
 void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high)
 {
+    if (!sim || !low || !high)
+        return;
     const sph_buffer *b = &sim->buf[sim->cur];
     bool any = false;
     *low = *high = 0;
@@ -217,9 +227,10 @@ void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high)
     for (uint32_t i = 0; i < sim->now.count; i++) {
         if (!is_fluid(sim, b, i))
             continue;
-        double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->quantum;
+        double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->grid.quantum;
         *low = !any || x < *low ? x : *low;
         *high = !any || x > *high ? x : *high;
         any = true;
     }
 }
+#endif

@@ -32,6 +32,7 @@
 
 #include <float.h>
 
+#if SPH_WITH_DUMP || SPH_WITH_RESTORE
 #define DUMP_PREAMBLE 32u
 #define DUMP_HEADER 64u
 #define DUMP_FIELD 32u
@@ -78,10 +79,10 @@ static const field scene_fields[] = {
     {"lo", "m", M_DOUBLE, SPH_DIM, AT(sph_sim, cfg.lo)},
     {"hi", "m", M_DOUBLE, SPH_DIM, AT(sph_sim, cfg.hi)},
     {"face", "1", M_U32, 2 * SPH_DIM, AT(sph_sim, cfg.face)},
-    {"quantum", "m", M_DOUBLE, 1, AT(sph_sim, quantum)},
+    {"quantum", "m", M_DOUBLE, 1, AT(sph_sim, grid.quantum)},
     {"spacing", "m", M_DOUBLE, 1, AT(sph_sim, cfg.spacing)},
     {"smoothing", "m", M_DOUBLE, 1, AT(sph_sim, cfg.smoothing_length)},
-    {"support", "m", M_DOUBLE, 1, AT(sph_sim, support)},
+    {"support", "m", M_DOUBLE, 1, AT(sph_sim, grid.support)},
     {"kernel", "1", M_U32, 1, AT(sph_sim, cfg.kernel)},
     {"scheme", "1", M_U32, 1, AT(sph_sim, cfg.scheme)},
     {"density", "1", M_U32, 1, AT(sph_sim, cfg.density)},
@@ -295,6 +296,7 @@ static bool move_crc(stream *s, const char *name)
 
 /* ---- preamble and end ---- */
 
+#if SPH_WITH_DUMP
 static bool write_preamble(stream *s, bool full, uint64_t bytes, uint32_t sections)
 {
     unsigned char *p = s->piece;
@@ -310,7 +312,9 @@ static bool write_preamble(stream *s, bool full, uint64_t bytes, uint32_t sectio
     chain(s, (uint32_t)get_number(p + 28, 4));
     return move_piece(s, DUMP_PREAMBLE);
 }
+#endif
 
+#if SPH_WITH_RESTORE
 static bool read_preamble(stream *s, uint64_t *bytes, uint64_t *sections)
 {
     const unsigned char *p = s->piece;
@@ -336,6 +340,7 @@ static bool read_preamble(stream *s, uint64_t *bytes, uint64_t *sections)
     chain(s, crc);
     return true;
 }
+#endif
 
 static bool move_end(stream *s)
 {
@@ -580,6 +585,7 @@ static bool move_arrays(stream *s, const sph_sim *sim, const sph_buffer *b, uint
     return true;
 }
 
+#if SPH_WITH_DUMP
 static bool write_all(stream *s, const sph_sim *sim, uint32_t fields, uint64_t bytes, uint32_t sections)
 {
     run r = {{0}, sim->cfg.damping, sim->cfg.dt, sim->last_work, sim->last_pairs, sim->last_passes, sim->last_limit};
@@ -594,7 +600,7 @@ static bool write_all(stream *s, const sph_sim *sim, uint32_t fields, uint64_t b
 sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ctx)
 {
     const uint32_t known = SPH_DUMP_FULL | SPH_DUMP_PICTURE | SPH_DUMP_ACCELERATION;
-    if (!sink || (fields & ~known))
+    if (!sim || !sink || (fields & ~known))
         return SPH_BAD_ARGUMENT;
     stream s;
     memset(&s, 0, sizeof s);
@@ -608,6 +614,9 @@ sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ct
     return s.fail.status;
 }
 
+#endif
+
+#if SPH_WITH_RESTORE
 /* ---- restore ---- */
 
 static bool check_scalars(stream *s, const sph_sim *sim, const run *r)
@@ -626,7 +635,7 @@ static bool check_scalars(stream *s, const sph_sim *sim, const run *r)
             return refuse(s, SPH_DUMP_CORRUPT, "gravity", "finite", r->gravity[k]);
     for (uint32_t g = 0; g < sim->groups; g++)
         for (int k = 0; k < SPH_DIM; k++) {
-            const int64_t moved = n->group[g].moved[k], most = 2 * (int64_t)sim->extent[k];
+            const int64_t moved = n->group[g].moved[k], most = 2 * (int64_t)sim->grid.extent[k];
             if (moved < -most || moved > most || !(sph_abs(n->group[g].vel[k]) < 1e15))
                 return refuse(s, SPH_DUMP_CORRUPT, "group", "as a motion may be", (double)moved);
         }
@@ -652,9 +661,9 @@ static bool check_particles(stream *s, const sph_sim *sim, const sph_buffer *b, 
         if (set != SPH_DEAD && set >= sim->sets)
             return refuse_particle(s, "set", "a set of this simulation", set, id);
         for (int k = 0; k < SPH_DIM; k++) {
-            const int64_t q = b->pos[k][i], e = sim->extent[k];
-            if (q < -e || q >= 2 * e)
-                return refuse_particle(s, "pos", "inside the domain, or at most its length outside", (double)q, id);
+            const int64_t q = b->pos[k][i], e = sim->grid.extent[k];
+            if (q < -e || q >= 2 * e - sim->grid.cell_size[k])
+                return refuse_particle(s, "pos", "inside the domain, or less than its length outside", (double)q, id);
         }
     }
     return true;
@@ -735,6 +744,8 @@ static void wipe(const sph_sim *sim, const sph_buffer *b)
 
 sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "sph_restore", "between steps", 0, SPH_NO_PARTICLE);
     if (!source)
@@ -765,3 +776,5 @@ sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx)
     sim->mark_particles = sim->now.count > sim->mark_particles ? sim->now.count : sim->mark_particles;
     return SPH_OK;
 }
+#endif
+#endif

@@ -11,7 +11,6 @@
      XSPH        u_i += xsph (m_j/rho_mean) (v_j - v_i) W   (Gray 2001 eq 2.22; not with walls, as he says)
 
    Arrays: none but the state's acc, drho (and xsph, tmp, power when chosen). Cost: one sweep a force evaluation. */
-#include "dmath.h"
 #include "fluid.h"
 #include "kernels.h"
 
@@ -30,14 +29,23 @@ typedef sph_factors factors;
 #define PC_COURANT 0.22
 #define PC_DISSIPATION (0.01 / 8) /* nu/(h c) of artificial viscosity with alpha 0.01 in 2-D */
 #define PC_COURANT_LEAST 0.05
+/* cube root of 1e-3 .. 1e6: Newton's rule from 1, which at worst takes 28 turns to come near and 6 to converge */
+static double cube_root(double x)
+{
+    double r = 1;
+    for (int i = 0; i < 40; i++)
+        r -= (r - x / (r * r)) / 3;
+    return r;
+}
+
 static double courant_factor(const sph_config *c)
 {
-    if (c->integrator != SPH_PREDICTOR_CORRECTOR)
+    if (!SPH_IS(c->integrator, PREDICTOR_CORRECTOR))
         return c->cfl;
-    const double hc = c->smoothing_length * c->sound_speed;
-    double d = c->diffusion ? c->delta : 0;
-    d += c->viscosity == SPH_MORRIS ? c->nu / hc : c->viscosity ? c->alpha / 8 : 0;
-    double stands = PC_COURANT * sph_pow(d / PC_DISSIPATION, 1.0 / 3);
+    double d = sph_diffusive(c->diffusion) ? c->delta : 0;
+    d += SPH_IS(c->viscosity, MORRIS) ? c->nu / (c->smoothing_length * c->sound_speed) : sph_viscous(c->viscosity) ? c->alpha / 8 : 0;
+    const double x = d / PC_DISSIPATION;
+    double stands = x < 1e-3 ? 0 : x > 1e6 ? PC_COURANT * 100 : PC_COURANT * cube_root(x);
     stands = stands < PC_COURANT_LEAST ? PC_COURANT_LEAST : stands;
     return c->cfl < stands ? c->cfl : stands;
 }
@@ -58,19 +66,20 @@ void sph_make_factors(sph_sim *sim)
     /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = (rho_i + rho_j) |mu'| */
     f->av_alpha = (sph_real)(2 * h * c->alpha * c->sound_speed);
     f->av_beta = (sph_real)(2 * h * h * c->beta);
-    f->morris = (sph_real)(4 * c->nu);
-    f->diff = (sph_real)(2 * c->delta * h * c->sound_speed);
-    double c2 = c->sound_speed * c->sound_speed * (c->eos == SPH_TAIT_GRAY ? 7 : 1);
+    f->morris = SPH_WITH_MORRIS ? (sph_real)(4 * c->nu) : 0;
+    f->diff = SPH_HAS_DIFFUSION ? (sph_real)(2 * c->delta * h * c->sound_speed) : 0;
+    const double c2 = c->sound_speed * c->sound_speed * (SPH_IS(c->eos, TAIT_GRAY) ? 7 : 1);
     for (int k = 0; k < SPH_DIM; k++) {
         f->gravity[k] = (sph_real)c->gravity[k];
         /* density difference that gravity makes over a distance r at rest: rho0 g . r / c^2 */
-        f->hydro[k] = c->diffusion == SPH_HYDROSTATIC ? (sph_real)(c->rho0 * c->gravity[k] / c2) : 0;
+        f->hydro[k] = SPH_IS(c->diffusion, HYDROSTATIC) ? (sph_real)(c->rho0 * c->gravity[k] / c2) : 0;
     }
     sim->courant = courant_factor(c);
-    f->rate_by_density = c->scheme != SPH_STANDARD && c->scheme != SPH_STANDARD_WICK;
-    f->continuity = c->density == SPH_CONTINUITY;
-    f->extras = c->xsph != 0 || c->body_force || c->books;
-    f->small_p = (sph_real)(1e-6 * c->rho0 * c->sound_speed * c->sound_speed);
+    f->rate_by_density = sph_weak_scheme(c->scheme);
+    f->continuity = !sph_sums_density(c);
+    f->extras = SPH_HAS_EXTRAS && (sph_uses_xsph(c) || (SPH_WITH_BODY_FORCE && c->body_force) || sph_keeps_books(c));
+    if (SPH_WITH_STANDARD_WICK || SPH_WITH_WEAK_WICK)
+        f->small_p = (sph_real)(1e-6 * c->rho0 * c->sound_speed * c->sound_speed);
 }
 
 /* what a home particle brings to each pair, spread over the lanes once */
@@ -104,10 +113,10 @@ SPH_INLINE vreal dot(const vreal *a, const vreal *b)
 /* the continuity weight that Wickramarachchi's 3.50 and 3.79 print: pressures of the pair over the home's pressure */
 SPH_INLINE vreal printed_weight(uint32_t scheme, const factors *f, vreal ai, vreal aj, vreal rho)
 {
-    const vreal p = scheme == SPH_STANDARD_WICK ? ai * rho * rho : ai;
+    const vreal p = SPH_IS(scheme, STANDARD_WICK) ? ai * rho * rho : ai;
     const vint usable = v_less(v_set(f->small_p), v_abs(p));
     const vreal safe = v_select(usable, ai, v_set(1));
-    const vreal w = scheme == SPH_STANDARD_WICK ? (ai + aj) / (2 * safe) : aj / safe;
+    const vreal w = SPH_IS(scheme, STANDARD_WICK) ? (ai + aj) / (2 * safe) : aj / safe;
     return v_select(usable, w, v_set(1));
 }
 
@@ -127,8 +136,8 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         dv[k] = dw[k] = h->v[k] - v_load(t->v[k] + j);
-    const bool weak = c->scheme != SPH_STANDARD && c->scheme != SPH_STANDARD_WICK;
-    const bool needs_iv = weak || c->diffusion;
+    const bool weak = sph_weak_scheme(c->scheme), viscous = sph_viscous(c->viscosity), diffusive = sph_diffusive(c->diffusion);
+    const bool needs_iv = weak || diffusive;
     const vreal q = v_sqrt(r2) * f->inv_h;
     const vreal mg = k_slope(c->kernel, q) * v_load(t->m + j);
     const vreal rho = v_load(t->rho + j), aj = v_load(t->a + j);
@@ -139,7 +148,7 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
     vreal con = mg * vr;
     if (weak)
         con = con * iv;
-    if (c->scheme == SPH_STANDARD_WICK || c->scheme == SPH_WEAK_WICK)
+    if (SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK))
         con = con * printed_weight(c->scheme, f, h->a, aj, h->rho);
     s[SUM_DRHO][nv] = s[SUM_DRHO][nv] + con;
 
@@ -147,15 +156,15 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
     vreal force;
     if (!weak)
         force = (h->a + aj) * mg;
-    else if (c->scheme == SPH_DIRECT)
+    else if (SPH_IS(c->scheme, DIRECT))
         force = (aj - h->a) * h->iv * iv * mg;
     else
         force = (aj + h->a) * h->iv * iv * mg;
 
     /* viscosity; with a ghost wall the mirror velocity multiplies v_ij by beta = 1 + min(depth/distance, 1/2) */
-    const vreal inv = c->viscosity || c->diffusion ? 1 / ((r2 + f->eta) * (h->rho + rho)) : r2;
+    const vreal inv = viscous || diffusive ? 1 / ((r2 + f->eta) * (h->rho + rho)) : r2;
     vreal visc = v_set(0), mu = v_set(0), fm = v_set(0);
-    if (c->viscosity) {
+    if (viscous) {
         vreal vv = vr;
         if (wall) {
             vreal n[SPH_DIM];
@@ -166,16 +175,16 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
             const vreal dist = v_max(dot(dx, n) - depth, depth + (sph_real)1e-30); /* depth/dist <= 1 */
             const vreal extra = depth / dist;
             const vreal beta = v_select(v_less(extra, v_set((sph_real)0.5)), extra, v_set((sph_real)0.5)) + 1;
-            const vreal vis = v_load(th->more.vis + j) * beta;
+            const vreal vis = SPH_WITH_WALL_GHOST ? v_load(th->more.vis + j) * beta : v_load(th->more.vis + j);
             SPH_UNROLL
             for (int k = 0; k < SPH_DIM; k++)
                 dw[k] = (h->v[k] - v_load(th->more.u[k] + j)) * vis;
             vv = dot(dw, dx);
         }
-        if (c->viscosity == SPH_ARTIFICIAL_APPROACHING)
+        if (SPH_IS(c->viscosity, ARTIFICIAL_APPROACHING))
             vv = v_where(v_less(vv, v_set(0)), vv);
         mu = vv * inv; /* mu of Gray 2.18 over (rho_i + rho_j) */
-        if (c->viscosity == SPH_MORRIS) {
+        if (SPH_IS(c->viscosity, MORRIS)) {
             fm = mg * r2 * inv * f->morris;
         } else {
             vreal strength = v_set(f->av_alpha);
@@ -190,14 +199,14 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
         s[SUM_ACC + k][nv] = s[SUM_ACC + k][nv] + force * dx[k];
-        if (c->viscosity == SPH_MORRIS)
+        if (SPH_IS(c->viscosity, MORRIS))
             s[SUM_ACC + k][nv] = s[SUM_ACC + k][nv] - fm * dw[k];
     }
 
     vreal diff = v_set(0);
-    if (c->diffusion && !wall) {
+    if (diffusive && !wall) {
         vreal dr = h->rho - rho;
-        if (c->diffusion == SPH_HYDROSTATIC) {
+        if (SPH_IS(c->diffusion, HYDROSTATIC)) {
             SPH_UNROLL
             for (int k = 0; k < SPH_DIM; k++)
                 dr = dr - dx[k] * f->hydro[k];
@@ -206,15 +215,15 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         diff = dr * (r2 * inv * (h->rho + rho)) * mg * iv * f->diff;
         s[SUM_DRHO][nv] = s[SUM_DRHO][nv] + (weak ? diff * h->iv : diff);
     }
-    if (c->xsph && !wall) {
+    if (SPH_WITH_XSPH && c->xsph && !wall) {
         const vreal w = k_value(c->kernel, q) * v_load(t->m + j) / (h->rho + rho);
         SPH_UNROLL
         for (int k = 0; k < SPH_DIM; k++)
             s[SUM_XSPH + k][nv] = s[SUM_XSPH + k][nv] - w * dv[k];
     }
-    if (c->books) {
+    if (SPH_WITH_BOOKS && c->books) {
         /* work of the pair's viscous force on the home particle relative to the partner: pairs of fluid count twice */
-        vreal d = c->viscosity == SPH_MORRIS ? -(fm * dot(dw, dv)) : -(visc * vr);
+        vreal d = SPH_IS(c->viscosity, MORRIS) ? -(fm * dot(dw, dv)) : -(visc * vr);
         s[SUM_VISC][nv] = s[SUM_VISC][nv] + (wall ? d : d * (sph_real)0.5);
         s[SUM_DIFF][nv] = s[SUM_DIFF][nv] + diff;
         if (wall) { /* force of the wall on the fluid times the wall's velocity */
@@ -231,7 +240,7 @@ SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, ui
     const home o = spread_home(&th->home, h);
     const uint32_t n = t->n;
     vreal s[SPH_SUMS][SPH_NV];
-    const int used = c->books ? (int)SUM_FORCE : c->xsph ? (int)SUM_VISC : (int)SUM_XSPH;
+    const int used = SPH_WITH_BOOKS && c->books ? (int)SUM_FORCE : SPH_WITH_XSPH && c->xsph ? (int)SUM_VISC : (int)SUM_XSPH;
     SPH_UNROLL
     for (int a = 0; a < used; a++)
         SPH_UNROLL
@@ -256,7 +265,9 @@ SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, ui
 static __attribute__((noinline)) void force_any(const choice *c, const factors *f, sph_thread *t, uint32_t h, bool wall)
 {
     const choice own = *c;
-    if (wall)
+    if (SPH_SMALL)
+        force_home(&own, f, t, h, SPH_HAS_LAYERED_WALLS && wall);
+    else if (SPH_HAS_LAYERED_WALLS && wall)
         force_home(&own, f, t, h, true);
     else
         force_home(&own, f, t, h, false);
@@ -286,7 +297,7 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
 {
     const sph_config *c = &sim->cfg;
 #if SPH_WITH_FAST_PATHS
-    if (role == SPH_ROLE_FLUID && c->scheme == SPH_STANDARD && c->beta == 0 && c->xsph == 0 && !c->books) {
+    if (role == SPH_ROLE_FLUID && SPH_IS(c->scheme, STANDARD) && c->beta == 0 && c->xsph == 0 && !c->books) {
 #define SPH_FAST_TRY(name, k, visc, diff)                                                                   \
     if (c->kernel == (k) && c->viscosity == (visc) && c->diffusion == (diff)) {                             \
         force_##name(&sim->fac, t, homes);                                                                  \
@@ -296,14 +307,18 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
 #undef SPH_FAST_TRY
     }
 #endif
-    const choice ch = {c->kernel, c->scheme, c->viscosity, c->diffusion, c->beta != 0, c->xsph != 0, c->books};
+    const choice ch = {c->kernel, c->scheme, c->viscosity, c->diffusion, c->beta != 0, sph_uses_xsph(c), sph_keeps_books(c)};
     for (uint32_t h = 0; h < homes; h++) {
         if (role != SPH_ROLE_FLUID && sim->set[t->home_set[h]].role != SPH_ROLE_FLUID)
             continue;
-        if (role == SPH_ROLE_FORCE_WALL)
+#if SPH_HAS_FORCE_WALLS
+        if (role == SPH_ROLE_FORCE_WALL) {
             sph_force_walls(sim, t, h);
-        else
-            force_any(&ch, &sim->fac, t, h, role == SPH_ROLE_GHOST);
+            continue;
+        }
+#endif
+
+        force_any(&ch, &sim->fac, t, h, role == SPH_ROLE_GHOST);
     }
 }
 
@@ -323,16 +338,16 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
     const sph_buffer *b = &sim->buf[sim->dst];
     const uint32_t i = t->home_at[h];
     sph_real body = 0;
-    if (c->xsph != 0)
+    if (sph_uses_xsph(c))
         for (int k = 0; k < SPH_DIM; k++)
             b->xsph[k][i] = v_fold(t->sum[SUM_XSPH + k][h]) * (f->value * (sph_real)(2 * c->xsph));
-    if (sim->has_force_wall)
+    if (SPH_HAS_FORCE_WALLS && sim->has_force_wall)
         for (int k = 0; k < SPH_DIM; k++)
             acc[k] += t->sum[SUM_FORCE][h][k];
-    if (c->body_force) {
+    if (SPH_WITH_BODY_FORCE && c->body_force) {
         double x[SPH_DIM], v[SPH_DIM], add[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
-            x[k] = c->lo[k] + (double)b->pos[k][i] * sim->quantum;
+            x[k] = c->lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
             v[k] = (double)t->home.v[k][h];
             add[k] = 0;
         }
@@ -342,7 +357,7 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
             body += (sph_real)add[k] * t->home.v[k][h];
         }
     }
-    if (c->books) { /* powers per unit mass of this particle */
+    if (sph_keeps_books(c)) { /* powers per unit mass of this particle */
         sim->power[0][i] = v_fold(t->sum[SUM_VISC][h]) * f->slope;
         sim->power[1][i] = t->sum[SUM_FORCE][h][SPH_DIM] - v_fold(t->sum[SUM_WALL][h]) * f->slope;
         sim->power[2][i] = v_fold(t->sum[SUM_DIFF][h]) * f->slope;
@@ -367,7 +382,7 @@ static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         acc[k] = f->gravity[k] - v_fold(t->sum[SUM_ACC + k][h]) * f->slope;
-    if (f->extras || sim->has_force_wall)
+    if ((SPH_HAS_EXTRAS && f->extras) || (SPH_HAS_FORCE_WALLS && sim->has_force_wall))
         finish_extras(sim, t, h, acc);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
@@ -387,8 +402,8 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_config *c = &sim->cfg;
     const sph_sweep w = {is_force_home,
                          1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL,
-                         c->books || sim->has_force_wall ? SUM_FORCE + 1 : c->xsph != 0 ? SUM_VISC : SUM_XSPH,
-                         c->diffusion || (c->scheme != SPH_STANDARD && c->scheme != SPH_STANDARD_WICK),
+                         sph_keeps_books(c) || sim->has_force_wall ? SUM_FORCE + 1 : sph_uses_xsph(c) ? SUM_VISC : SUM_XSPH,
+                         sph_diffusive(c->diffusion) || sph_weak_scheme(c->scheme),
                          force_tile,
                          force_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
@@ -403,6 +418,8 @@ static sph_status force_end(sph_sim *sim)
 const sph_pass sph_pass_force = {"force", sph_sweep_chunks, force_chunk, force_end, NULL};
 
 /* ---- density by summation (Gray 2001 eq 2.19) and the Shepard filter (Wickramarachchi 2009 eq 6.3) ---- */
+
+#if SPH_HAS_FILTERS
 
 enum { SUM_MW, SUM_VW };
 
@@ -442,6 +459,7 @@ static void density_add(const sph_sim *sim, sph_thread *t, uint32_t homes, uint3
         density_tile(sim->cfg.kernel, &sim->fac, t, h, role == SPH_ROLE_GHOST ? &t->ghost : &t->fluid);
 }
 
+#if SPH_WITH_SUMMATION
 static void summation_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_real rho0 = sim->set[t->home_set[h]].rho0_r;
@@ -453,6 +471,11 @@ static void summation_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 
+static bool sums_density(const sph_sim *sim) { return sph_sums_density(&sim->cfg); }
+const sph_pass sph_pass_summation = {"summation", sph_sweep_chunks, summation_chunk, NULL, sums_density};
+#endif
+
+#if SPH_WITH_SHEPARD
 static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_real rho0 = sim->set[t->home_set[h]].rho0_r;
@@ -465,6 +488,13 @@ static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 
+static bool filters_now(const sph_sim *sim)
+{
+    return sim->cfg.shepard_every && sim->next.step && sim->next.step % sim->cfg.shepard_every == 0;
+}
+const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, filters_now};
+#endif
+
 /* the filtered density becomes the density; in its own pass, because neighbours read the old one */
 static void copy_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
@@ -476,12 +506,13 @@ static void copy_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     t->work += last - chunk * SPH_LOCAL_CHUNK;
 }
 
-static bool sums_density(const sph_sim *sim) { return sim->cfg.density == SPH_SUMMATION; }
-static bool filters_now(const sph_sim *sim)
+static bool copies_density(const sph_sim *sim)
 {
-    return sim->cfg.shepard_every && sim->next.step && sim->next.step % sim->cfg.shepard_every == 0;
+#if SPH_WITH_SHEPARD
+    if (filters_now(sim))
+        return true;
+#endif
+    return sph_sums_density(&sim->cfg);
 }
-static bool copies_density(const sph_sim *sim) { return sums_density(sim) || filters_now(sim); }
-const sph_pass sph_pass_summation = {"summation", sph_sweep_chunks, summation_chunk, NULL, sums_density};
-const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, filters_now};
 const sph_pass sph_pass_copy_density = {"copy density", sph_local_chunks, copy_density_chunk, NULL, copies_density};
+#endif

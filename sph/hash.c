@@ -3,7 +3,7 @@
    order do not show. The mixer is a multiply-xorshift step (constants: the golden ratio and Steele, Lea & Flood 2014). */
 #include "internal.h"
 
-uint64_t sph_mix(uint64_t h, uint64_t v)
+SPH_INLINE uint64_t mix(uint64_t h, uint64_t v)
 {
     h = (h ^ v) * 0x9e3779b97f4a7c15u;
     h ^= h >> 32;
@@ -11,7 +11,10 @@ uint64_t sph_mix(uint64_t h, uint64_t v)
     return h ^ (h >> 29);
 }
 
-uint64_t sph_mix_double(uint64_t h, double v)
+/* not inlined: 64-bit products are long where registers have 32 bits */
+__attribute__((noinline)) uint64_t sph_mix(uint64_t h, uint64_t v) { return mix(h, v); }
+
+__attribute__((noinline)) uint64_t sph_mix_double(uint64_t h, double v)
 {
     uint64_t u;
     memcpy(&u, &v, sizeof u);
@@ -33,7 +36,7 @@ static uint64_t mix_array(uint64_t h, const void *p, size_t size, uint32_t n)
         } else {
             v = b[i];
         }
-        h = sph_mix(h, v);
+        h = mix(h, v);
     }
     return h;
 }
@@ -53,6 +56,8 @@ uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n)
 
 uint64_t sph_hash(const sph_sim *sim)
 {
+    if (!sim)
+        return 0;
     const sph_scalars *s = &sim->now;
     uint64_t h = sph_hash_buffer(sim, &sim->buf[sim->cur], s->count);
     h = sph_mix_double(sph_mix_double(h, s->time), s->dt_last);
@@ -70,18 +75,31 @@ uint64_t sph_hash(const sph_sim *sim)
     return h;
 }
 
-/* the fields that a running simulation may not change; gravity, damping, dt, limits on dt and hooks are left out */
+/* The fields that a running simulation may not change; gravity, damping, dt, limits on dt and hooks are left out. The order
+   is part of every dump's digest. */
+#define AT(member) (uint16_t) offsetof(sph_config, member)
+static const uint16_t whole_fields[] = {AT(max_particles), AT(on_leave),  AT(on_cross),  AT(kernel),        AT(scheme), AT(density),
+                                        AT(eos),           AT(viscosity), AT(diffusion), AT(shepard_every), AT(integrator)};
+static const uint16_t real_fields[] = {AT(spacing), AT(smoothing_length), AT(rho0), AT(sound_speed), AT(alpha),
+                                       AT(beta),    AT(nu),               AT(delta), AT(xsph),       AT(cfl),
+                                       AT(viscous_factor), AT(force_factor), AT(gravity_factor), AT(dt_max), AT(dt_min)};
+#undef AT
+
 uint64_t sph_hash_config(const sph_config *c)
 {
+    const unsigned char *p = (const unsigned char *)c;
     uint64_t h = SPH_VERSION * 16u + SPH_DIM * 2u + SPH_DOUBLE;
-    const uint32_t u[] = {c->max_particles, c->on_leave, c->on_cross, c->kernel, c->scheme, c->density, c->eos, c->viscosity,
-                          c->diffusion, c->shepard_every, c->integrator, c->pressure_floor, c->books};
-    const double d[] = {c->spacing, c->smoothing_length, c->rho0, c->sound_speed, c->alpha, c->beta, c->nu, c->delta, c->xsph,
-                        c->cfl, c->viscous_factor, c->force_factor, c->gravity_factor, c->dt_max, c->dt_min};
-    for (size_t i = 0; i < sizeof u / sizeof *u; i++)
-        h = sph_mix(h, u[i]);
-    for (size_t i = 0; i < sizeof d / sizeof *d; i++)
-        h = sph_mix_double(h, d[i]);
+    for (size_t i = 0; i < sizeof whole_fields / sizeof *whole_fields; i++) {
+        uint32_t u;
+        memcpy(&u, p + whole_fields[i], sizeof u);
+        h = sph_mix(h, u);
+    }
+    h = sph_mix(sph_mix(h, c->pressure_floor), c->books);
+    for (size_t i = 0; i < sizeof real_fields / sizeof *real_fields; i++) {
+        double d;
+        memcpy(&d, p + real_fields[i], sizeof d);
+        h = sph_mix_double(h, d);
+    }
     for (int k = 0; k < SPH_DIM; k++) {
         h = sph_mix_double(sph_mix_double(h, c->lo[k]), c->hi[k]);
         h = sph_mix(h, c->face[k][0] | (uint64_t)c->face[k][1] << 8);

@@ -37,7 +37,7 @@ typedef sph_int sph_pos;
     X(rho, sph_real, 1, "1", true) /* (density - rho0)/rho0 */                                              \
     X(acc, sph_real, SPH_DIM, "m/s^2", true)                                                                \
     X(drho, sph_real, 1, "1/s", true)                                                                       \
-    X(xsph, sph_real, SPH_DIM, "m/s", c->xsph != 0)                                                         \
+    X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c))                                                         \
     X(id, uint32_t, 1, "1", true) /* within a step: the particle's index in the source buffer */            \
     X(set, uint8_t, 1, "1", true)
 
@@ -106,11 +106,22 @@ typedef struct sph_fail {
     double value;
 } sph_fail;
 
+/* the domain in quanta and in cells of one support */
+typedef struct sph_grid {
+    double quantum, length[SPH_DIM]; /* m */
+    double support;                  /* m */
+    sph_pos extent[SPH_DIM];         /* domain size, quanta */
+    sph_pos cell_size[SPH_DIM];      /* about; the cells' corners are where cell_mul puts them */
+    uint32_t ncell[SPH_DIM], cells, slabs, slab_cells;
+    uint32_t cell_mul[SPH_DIM];      /* cell index = (position * mul) >> 32 after a shift */
+    uint32_t pos_shift;
+} sph_grid;
+
 struct sph_thread; /* per-thread scratch: sweep.h */
 
 typedef struct sph_pass sph_pass;
 /* the stage a sort belongs to: which positions it moves the particles to, and what else it advances */
-enum { SPH_ADV_COPY, SPH_ADV_PC, SPH_ADV_KDK, SPH_ADV_LEAP, SPH_ADV_RK, SPH_ADV_RKM };
+enum { SPH_ADV_COPY, SPH_ADV_PC, SPH_ADV_KDK, SPH_ADV_LEAP, SPH_ADV_RK };
 
 #define SPH_MAX_RANGES 64u
 #define SPH_MAX_PROGRAM 48u
@@ -118,14 +129,7 @@ enum { SPH_ADV_COPY, SPH_ADV_PC, SPH_ADV_KDK, SPH_ADV_LEAP, SPH_ADV_RK, SPH_ADV_
 struct sph_sim {
     uint64_t magic;
     sph_config cfg;
-    /* grid */
-    double quantum, length[SPH_DIM];
-    sph_pos extent[SPH_DIM]; /* domain size, quanta */
-    sph_pos cell_size[SPH_DIM]; /* about; the cells' corners are where cell_mul puts them */
-    uint32_t ncell[SPH_DIM], cells, slabs, slab_cells;
-    uint32_t cell_mul[SPH_DIM]; /* cell index = (position * mul) >> 32 after a shift */
-    uint32_t pos_shift;
-    double support;
+    sph_grid grid;
     double courant; /* cfl, or less where the integrator does not stand it */
     sph_factors fac;
     /* arrays */
@@ -146,13 +150,13 @@ struct sph_sim {
     sph_group *group; /* SPH_MAX_GROUPS */
     uint32_t sets, groups;
     uint64_t setup_hash;
-    bool has_ghost, has_adami, has_adami_slip, has_compressible, has_force_wall;
+    bool has_adami, has_force_wall;
     /* state */
     sph_scalars now, next; /* next: being made by the step under way */
     bool table_valid;      /* cell[] belongs to buffer cur */
     /* step machine */
     const sph_pass *program[SPH_MAX_PROGRAM];
-    uint32_t passes, pc, chunk, chunks;
+    uint32_t passes, pc, chunk, chunks, chunk_cells; /* chunk_cells: of the sweeps of the step under way */
     bool begun;
     double dt, t_end;
     uint32_t limit;
@@ -175,6 +179,62 @@ struct sph_pass {
     sph_status (*end)(sph_sim *sim);                                   /* null: nothing */
     bool (*wanted)(const sph_sim *sim);                                /* null: always */
 };
+
+/* ---- what was compiled in (modules.h), as bits 1 << choice ---- */
+
+#define SPH_KERNELS_IN                                                                                      \
+    (SPH_WITH_CUBIC << SPH_CUBIC | SPH_WITH_QUARTIC << SPH_QUARTIC | SPH_WITH_QUINTIC << SPH_QUINTIC |      \
+     SPH_WITH_GAUSSIAN << SPH_GAUSSIAN | SPH_WITH_WENDLAND_C2 << SPH_WENDLAND_C2 |                          \
+     SPH_WITH_WENDLAND_C4 << SPH_WENDLAND_C4 | SPH_WITH_HAT << SPH_HAT)
+#define SPH_SCHEMES_IN                                                                                      \
+    (SPH_WITH_STANDARD << SPH_STANDARD | SPH_WITH_WEAK << SPH_WEAK | SPH_WITH_DIRECT << SPH_DIRECT |        \
+     SPH_WITH_STANDARD_WICK << SPH_STANDARD_WICK | SPH_WITH_WEAK_WICK << SPH_WEAK_WICK)
+#define SPH_EOSES_IN                                                                                        \
+    (SPH_WITH_TAIT << SPH_TAIT | SPH_WITH_TAIT_GRAY << SPH_TAIT_GRAY | SPH_WITH_LINEAR << SPH_LINEAR |      \
+     SPH_WITH_ISOTHERMAL << SPH_ISOTHERMAL)
+#define SPH_VISCOSITIES_IN                                                                                  \
+    (1 << SPH_INVISCID | SPH_WITH_ARTIFICIAL << SPH_ARTIFICIAL |                                            \
+     SPH_WITH_ARTIFICIAL_APPROACHING << SPH_ARTIFICIAL_APPROACHING | SPH_WITH_MORRIS << SPH_MORRIS)
+#define SPH_INTEGRATORS_IN                                                                                  \
+    (SPH_WITH_PREDICTOR_CORRECTOR << SPH_PREDICTOR_CORRECTOR | SPH_WITH_KICK_DRIFT_KICK << SPH_KICK_DRIFT_KICK | \
+     SPH_WITH_LEAP_FROG << SPH_LEAP_FROG | SPH_WITH_RUNGE_KUTTA << SPH_RUNGE_KUTTA |                        \
+     SPH_WITH_RUNGE_KUTTA_MOMENTUM << SPH_RUNGE_KUTTA_MOMENTUM)
+#define SPH_FACES_IN                                                                                        \
+    (1 << SPH_OPEN | SPH_WITH_PERIODIC << SPH_PERIODIC | SPH_WITH_SYMMETRY << SPH_SYMMETRY |                \
+     SPH_WITH_MIRROR_NO_SLIP << SPH_MIRROR_NO_SLIP)
+#define SPH_WALLS_IN                                                                                        \
+    (SPH_WITH_WALL_LENNARD_JONES << SPH_WALL_LENNARD_JONES | SPH_WITH_WALL_KERNEL_FORCE << SPH_WALL_KERNEL_FORCE | \
+     SPH_WITH_WALL_MONAGHAN_KOS << SPH_WALL_MONAGHAN_KOS | SPH_WITH_WALL_GHOST << SPH_WALL_GHOST |          \
+     SPH_WITH_WALL_ADAMI << SPH_WALL_ADAMI)
+
+/* modules that share code */
+#define SPH_HAS_FORCE_WALLS (SPH_WITH_WALL_LENNARD_JONES || SPH_WITH_WALL_KERNEL_FORCE || SPH_WITH_WALL_MONAGHAN_KOS)
+#define SPH_HAS_LAYERED_WALLS (SPH_WITH_WALL_GHOST || SPH_WITH_WALL_ADAMI)
+#define SPH_HAS_WALLS (SPH_HAS_FORCE_WALLS || SPH_HAS_LAYERED_WALLS)
+#define SPH_HAS_MIRRORS (SPH_WITH_SYMMETRY || SPH_WITH_MIRROR_NO_SLIP)
+#define SPH_HAS_IMAGES (SPH_WITH_PERIODIC || SPH_HAS_MIRRORS)
+#define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
+#define SPH_HAS_FILTERS (SPH_WITH_SHEPARD || SPH_WITH_SUMMATION)
+#define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */
+#define SPH_HAS_RUNGE_KUTTA (SPH_WITH_RUNGE_KUTTA || SPH_WITH_RUNGE_KUTTA_MOMENTUM)
+#define SPH_HAS_RATES_FIRST (SPH_WITH_KICK_DRIFT_KICK || SPH_WITH_LEAP_FROG) /* a sweep for the density of its own */
+
+_Static_assert(SPH_KERNELS_IN && SPH_SCHEMES_IN && SPH_EOSES_IN && SPH_INTEGRATORS_IN,
+               "modules.h: at least one smoothing kernel, scheme, equation of state and integrator must be in");
+
+SPH_INLINE bool sph_in(uint32_t mask, uint32_t choice) { return choice < 32 && mask >> choice & 1; }
+
+/* questions about choices that fold to constants where a module is left out */
+SPH_INLINE bool sph_weak_scheme(uint32_t s) { return SPH_IS(s, WEAK) || SPH_IS(s, DIRECT) || SPH_IS(s, WEAK_WICK); }
+SPH_INLINE bool sph_viscous(uint32_t v)
+{
+    return SPH_IS(v, ARTIFICIAL) || SPH_IS(v, ARTIFICIAL_APPROACHING) || SPH_IS(v, MORRIS);
+}
+SPH_INLINE bool sph_diffusive(uint32_t d) { return SPH_IS(d, MOLTENI) || SPH_IS(d, HYDROSTATIC); }
+SPH_INLINE bool sph_sums_density(const sph_config *c) { return SPH_IS(c->density, SUMMATION); }
+SPH_INLINE bool sph_keeps_books(const sph_config *c) { return SPH_WITH_BOOKS && c->books; }
+SPH_INLINE bool sph_uses_xsph(const sph_config *c) { return SPH_WITH_XSPH && c->xsph != 0; }
+SPH_INLINE bool sph_filters(const sph_config *c) { return SPH_WITH_SHEPARD && c->shepard_every != 0; }
 
 /* ---- shared by files ---- */
 #define sph_sim_magic 0x5350485f53494d31u
@@ -226,16 +286,31 @@ SPH_INLINE uint32_t sph_run_end(const uint8_t *set, uint32_t s, uint32_t e)
     return e;
 }
 
+/* whether a wall group is gone, and how fast it moves along an axis (m/s), at the end of the step under way */
+SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)
+{
+    return SPH_WITH_MOVING_WALLS && sim->next.group[s->group].removed;
+}
+SPH_INLINE double sph_wall_velocity(const sph_sim *sim, const sph_set *s, uint32_t axis)
+{
+    return SPH_WITH_MOVING_WALLS ? sim->next.group[s->group].vel[axis] : 0;
+}
+/* its displacement, quanta */
+SPH_INLINE sph_pos sph_wall_moved(const sph_sim *sim, const sph_set *s, uint32_t axis)
+{
+    return SPH_WITH_MOVING_WALLS ? sim->next.group[s->group].moved[axis] : 0;
+}
+
 /* cell of a position along axis k; the position must be inside the domain */
 SPH_INLINE uint32_t sph_cell_axis(const sph_sim *sim, uint32_t k, sph_pos q)
 {
-    return (uint32_t)(((uint64_t)(uint32_t)(q >> sim->pos_shift) * sim->cell_mul[k]) >> 32);
+    return (uint32_t)(((uint64_t)(uint32_t)(q >> sim->grid.pos_shift) * sim->grid.cell_mul[k]) >> 32);
 }
 SPH_INLINE uint32_t sph_cell_of(const sph_sim *sim, const sph_pos *q)
 {
     uint32_t c = 0;
     for (uint32_t k = SPH_DIM; k-- > 0;)
-        c = c * sim->ncell[k] + sph_cell_axis(sim, k, q[k]);
+        c = c * sim->grid.ncell[k] + sph_cell_axis(sim, k, q[k]);
     return c;
 }
 

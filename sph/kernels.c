@@ -4,6 +4,7 @@
    Each constant is 1 / integral of value(q) over the support, derived for the shapes of kernels.h:
    B-splines from Schoenberg's truncated powers, Wendland's functions from beta integrals, the truncated Gaussian from
    the error function of 3, so that all seven integrate to 1 (tests/test_kernels.c checks by quadrature). */
+#include "internal.h"
 #include "kernels.h"
 
 #define SPH_PI 3.14159265358979323846
@@ -45,7 +46,7 @@ void sph_kernel_scales(uint32_t kernel, double h, double *value_scale, double *s
 sph_status sph_kernel_value(uint32_t kernel, double r, double h, double *w, double *dw)
 {
     double value_scale, slope_scale;
-    if (kernel >= SPH_KERNELS || !(h > 0) || !(r >= 0) || !w || !dw || h - h != 0 || r - r != 0)
+    if (!sph_in(SPH_KERNELS_IN, kernel) || !(h > 0) || !(r >= 0) || !w || !dw || h - h != 0 || r - r != 0)
         return SPH_BAD_ARGUMENT;
     sph_kernel_scales(kernel, h, &value_scale, &slope_scale);
     double q = r / h;

@@ -34,58 +34,60 @@ SPH_INLINE vreal k_exp_minus(vreal y)
 SPH_INLINE vreal k_slope(uint32_t kernel, vreal q)
 {
     const vreal qs = v_max(q, v_set(SPH_TINY_Q));
-    switch (kernel) {
-    case SPH_WENDLAND_C2: {
-        vreal u = v_pos(1 - q * (sph_real)0.5);
+    if (SPH_IS(kernel, WENDLAND_C2)) {
+        const vreal u = v_pos(1 - q * (sph_real)0.5);
         return SPH_DIM == 1 ? u * u : u * u * u;
     }
-    case SPH_WENDLAND_C4: {
-        vreal t = q * (sph_real)0.5, u = v_pos(1 - t), u4 = k_sq(u * u);
+    if (SPH_IS(kernel, WENDLAND_C4)) {
+        const vreal t = q * (sph_real)0.5, u = v_pos(1 - t), u4 = k_sq(u * u);
         return SPH_DIM == 1 ? (1 + 4 * t) * u4 : (1 + 5 * t) * u4 * u;
     }
-    case SPH_QUARTIC: {
-        vreal a = v_pos((sph_real)2.5 - q), b = v_pos((sph_real)1.5 - q), c = v_pos((sph_real)0.5 - q);
-        return (a * a * a - 5 * (b * b * b) + 10 * (c * c * c)) / qs;
-    }
-    case SPH_QUINTIC: {
-        vreal a = v_pos(3 - q), b = v_pos(2 - q), c = v_pos(1 - q);
-        return (k_sq(a * a) - 6 * k_sq(b * b) + 15 * k_sq(c * c)) / qs;
-    }
-    case SPH_GAUSSIAN: return v_where(v_less(q, v_set(3)), k_exp_minus(q * q));
-    case SPH_HAT: return v_where(v_less(q, v_set(2)), v_where(v_less(v_set(0), q), 1 / qs));
-    default: { /* cubic */
-        vreal a = v_pos(2 - q), b = v_pos(1 - q);
+    if (SPH_IS(kernel, CUBIC)) {
+        const vreal a = v_pos(2 - q), b = v_pos(1 - q);
         return (a * a - 4 * (b * b)) / qs;
     }
+    if (SPH_IS(kernel, QUARTIC)) {
+        const vreal a = v_pos((sph_real)2.5 - q), b = v_pos((sph_real)1.5 - q), c = v_pos((sph_real)0.5 - q);
+        return (a * a * a - 5 * (b * b * b) + 10 * (c * c * c)) / qs;
     }
+    if (SPH_IS(kernel, QUINTIC)) {
+        const vreal a = v_pos(3 - q), b = v_pos(2 - q), c = v_pos(1 - q);
+        return (k_sq(a * a) - 6 * k_sq(b * b) + 15 * k_sq(c * c)) / qs;
+    }
+    if (SPH_IS(kernel, GAUSSIAN))
+        return v_where(v_less(q, v_set(3)), k_exp_minus(q * q));
+    if (SPH_IS(kernel, HAT))
+        return v_where(v_less(q, v_set(2)), v_where(v_less(v_set(0), q), 1 / qs));
+    __builtin_unreachable(); /* sph_config_check lets nothing else in */
 }
 
 SPH_INLINE vreal k_value(uint32_t kernel, vreal q)
 {
-    switch (kernel) {
-    case SPH_WENDLAND_C2: {
-        vreal t = q * (sph_real)0.5, u = v_pos(1 - t), u2 = u * u;
+    if (SPH_IS(kernel, WENDLAND_C2)) {
+        const vreal t = q * (sph_real)0.5, u = v_pos(1 - t), u2 = u * u;
         return SPH_DIM == 1 ? u2 * u * (1 + 3 * t) : u2 * u2 * (1 + 4 * t);
     }
-    case SPH_WENDLAND_C4: {
-        vreal t = q * (sph_real)0.5, u = v_pos(1 - t), u2 = u * u;
+    if (SPH_IS(kernel, WENDLAND_C4)) {
+        const vreal t = q * (sph_real)0.5, u = v_pos(1 - t), u2 = u * u;
         return SPH_DIM == 1 ? u2 * u2 * u * (1 + t * (5 + 8 * t)) : u2 * u2 * u2 * (3 + t * (18 + 35 * t));
     }
-    case SPH_QUARTIC: {
-        vreal a = v_pos((sph_real)2.5 - q), b = v_pos((sph_real)1.5 - q), c = v_pos((sph_real)0.5 - q);
-        return k_sq(a * a) - 5 * k_sq(b * b) + 10 * k_sq(c * c);
-    }
-    case SPH_QUINTIC: {
-        vreal a = v_pos(3 - q), b = v_pos(2 - q), c = v_pos(1 - q);
-        return k_sq(a * a) * a - 6 * (k_sq(b * b) * b) + 15 * (k_sq(c * c) * c);
-    }
-    case SPH_GAUSSIAN: return v_where(v_less(q, v_set(3)), k_exp_minus(q * q));
-    case SPH_HAT: return v_pos(1 - q * (sph_real)0.5);
-    default: {
-        vreal a = v_pos(2 - q), b = v_pos(1 - q);
+    if (SPH_IS(kernel, CUBIC)) {
+        const vreal a = v_pos(2 - q), b = v_pos(1 - q);
         return a * a * a - 4 * (b * b * b);
     }
+    if (SPH_IS(kernel, QUARTIC)) {
+        const vreal a = v_pos((sph_real)2.5 - q), b = v_pos((sph_real)1.5 - q), c = v_pos((sph_real)0.5 - q);
+        return k_sq(a * a) - 5 * k_sq(b * b) + 10 * k_sq(c * c);
     }
+    if (SPH_IS(kernel, QUINTIC)) {
+        const vreal a = v_pos(3 - q), b = v_pos(2 - q), c = v_pos(1 - q);
+        return k_sq(a * a) * a - 6 * (k_sq(b * b) * b) + 15 * (k_sq(c * c) * c);
+    }
+    if (SPH_IS(kernel, GAUSSIAN))
+        return v_where(v_less(q, v_set(3)), k_exp_minus(q * q));
+    if (SPH_IS(kernel, HAT))
+        return v_pos(1 - q * (sph_real)0.5);
+    __builtin_unreachable();
 }
 
 #endif

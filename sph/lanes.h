@@ -34,10 +34,21 @@
 #endif
 
 #define SPH_INLINE static inline __attribute__((always_inline, unused))
-#if defined(__clang__)
+#if defined(__OPTIMIZE_SIZE__) /* -Os: loops stay loops, and no text is compiled twice for speed */
+#define SPH_SMALL 1
+#define SPH_UNROLL
+#elif defined(__clang__)
 #define SPH_UNROLL _Pragma("unroll")
 #else
 #define SPH_UNROLL _Pragma("GCC unroll 8")
+#endif
+#ifndef SPH_SMALL
+#define SPH_SMALL 0
+#endif
+#if SPH_SMALL
+#define SPH_INLINE_BIG static __attribute__((noinline, unused))
+#else
+#define SPH_INLINE_BIG SPH_INLINE
 #endif
 
 /* bytes of one vector register; SPH_VECTOR_BYTES=0 asks for the scalar form */
@@ -130,7 +141,7 @@ static const sph_real sph_lane_numbers[SPH_LANES] __attribute__((unused)) = {0, 
 
 /* the one order in which eight partial sums become a sum: ((0+4)+(2+6)) + ((1+5)+(3+7)) */
 #if SPH_SCALAR
-SPH_INLINE sph_real v_fold(const sph_real *l)
+SPH_INLINE_BIG sph_real v_fold(const sph_real *l)
 {
     return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
 }
@@ -145,7 +156,7 @@ SPH_INLINE sph_real v_fold(const sph_real *l)
     return (a[0] + a[2]) + (a[1] + a[3]);
 }
 #endif
-SPH_INLINE sph_real v_fold_max(const sph_real *l)
+SPH_INLINE_BIG sph_real v_fold_max(const sph_real *l)
 {
     sph_real m[4];
     for (int k = 0; k < 4; k++)

@@ -33,6 +33,7 @@ sph_config sph_config_default(void)
     memset(&c, 0, sizeof c);
     c.cookie = SPH_COOKIE;
     c.max_threads = 1;
+    c.max_sets = SPH_MAX_SETS;
     c.on_leave = SPH_FAIL;
     c.on_cross = SPH_FAIL;
     c.kernel = SPH_WENDLAND_C2;
@@ -52,51 +53,156 @@ sph_config sph_config_default(void)
     return c;
 }
 
-static sph_status refuse(sph_report *r, const char *what, const char *allowed, double value)
+static __attribute__((noinline)) sph_status refuse(sph_report *r, const char *what, const char *allowed, double value)
 {
     if (r)
         *r = (sph_report){SPH_BAD_CONFIG, what, allowed, "", value, SPH_NO_PARTICLE};
     return SPH_BAD_CONFIG;
 }
 
-#define SPH_HUGE 1e30 /* larger magnitudes are refused: squares of them must stay finite in a float's range */
+#define SPH_HUGE 1e30f /* larger magnitudes are refused: squares of them must stay finite in a float's range */
 
+/* What each number may be. A table of places, not of values: it stays in read-only memory. Bounds are floats, which hold
+   all of them. */
 typedef struct range_check {
     const char *what, *allowed;
-    double value, low, high;
-    bool low_open;
+    uint16_t at;   /* offset in sph_config */
+    bool whole;    /* uint32_t instead of double */
+    bool low_open; /* the low bound itself is not allowed */
+    float low, high;
 } range_check;
 
-static sph_status check_choices(const sph_config *c, sph_report *r)
+#define AT(member) offsetof(sph_config, member)
+static const range_check ranges[] = {
+    {"max_particles", "1 .. 2^30", AT(max_particles), true, false, 1, 1073741824.0f},
+    {"max_threads", "1 .. 256", AT(max_threads), true, false, 1, 256},
+    {"max_sets", "1 .. SPH_MAX_SETS", AT(max_sets), true, false, 1, SPH_MAX_SETS},
+    {"spacing", "1e-30 .. 1e30", AT(spacing), false, false, 1 / SPH_HUGE, SPH_HUGE},
+    {"smoothing_length", "0.5 .. 10 spacings", AT(smoothing_length), false, true, 0, SPH_HUGE},
+    {"rho0", "1e-30 .. 1e30", AT(rho0), false, false, 1 / SPH_HUGE, SPH_HUGE},
+    {"sound_speed", "1e-15 .. 1e15", AT(sound_speed), false, false, 1e-15f, 1e15f},
+    {"alpha", ">= 0", AT(alpha), false, false, 0, 1e6f},
+    {"beta", ">= 0", AT(beta), false, false, 0, 1e6f},
+    {"nu", ">= 0, and > 0 for SPH_MORRIS", AT(nu), false, false, 0, SPH_HUGE},
+    {"delta", "0 .. 10", AT(delta), false, false, 0, 10},
+    {"xsph", "0 .. 1", AT(xsph), false, false, 0, 1},
+    {"damping", "> 0 and <= 1", AT(damping), false, true, 0, 1},
+    {"dt", ">= 0 (0: controlled)", AT(dt), false, false, 0, SPH_HUGE},
+    {"cfl", "> 0 and <= 10", AT(cfl), false, true, 0, 10},
+    {"viscous_factor", "> 0 and <= 10", AT(viscous_factor), false, true, 0, 10},
+    {"force_factor", "> 0 and <= 10", AT(force_factor), false, true, 0, 10},
+    {"gravity_factor", "> 0 and <= 10", AT(gravity_factor), false, true, 0, 10},
+    {"dt_max", ">= 0 (0: none)", AT(dt_max), false, false, 0, SPH_HUGE},
+    {"dt_min", ">= 0", AT(dt_min), false, false, 0, SPH_HUGE},
+};
+
+static double number_at(const sph_config *c, const range_check *e)
 {
-    const struct {
-        const char *what, *allowed;
-        uint32_t value, count;
-    } list[] = {
-        {"kernel", "one of SPH_CUBIC .. SPH_HAT", c->kernel, SPH_KERNELS},
-        {"scheme", "one of SPH_STANDARD .. SPH_WEAK_WICK", c->scheme, SPH_SCHEMES},
-        {"density", "SPH_CONTINUITY or SPH_SUMMATION", c->density, SPH_DENSITIES},
-        {"eos", "one of SPH_TAIT .. SPH_ISOTHERMAL", c->eos, SPH_EOSES},
-        {"viscosity", "one of SPH_INVISCID .. SPH_MORRIS", c->viscosity, SPH_VISCOSITIES},
-        {"diffusion", "one of SPH_NO_DIFFUSION .. SPH_HYDROSTATIC", c->diffusion, SPH_DIFFUSIONS},
-        {"integrator", "one of SPH_PREDICTOR_CORRECTOR .. SPH_RUNGE_KUTTA_MOMENTUM", c->integrator, SPH_INTEGRATORS},
-        {"on_leave", "SPH_FAIL or SPH_REMOVE", c->on_leave, SPH_REMOVE + 1},
-        {"on_cross", "one of SPH_FAIL .. SPH_IGNORE", c->on_cross, SPH_POLICIES},
-    };
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-        if (list[i].value >= list[i].count)
-            return refuse(r, list[i].what, list[i].allowed, list[i].value);
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        for (uint32_t s = 0; s < 2; s++)
-            if (c->face[k][s] >= SPH_FACES)
-                return refuse(r, "face", "one of SPH_OPEN .. SPH_MIRROR_NO_SLIP", c->face[k][s]);
-        if ((c->face[k][0] == SPH_PERIODIC) != (c->face[k][1] == SPH_PERIODIC))
-            return refuse(r, "face", "SPH_PERIODIC on both faces of an axis or on neither", c->face[k][1]);
+    const unsigned char *p = (const unsigned char *)c + e->at;
+    uint32_t u;
+    double d;
+    if (e->whole) {
+        memcpy(&u, p, sizeof u);
+        return u;
     }
-    if (c->density == SPH_SUMMATION && (c->diffusion || c->shepard_every))
+    memcpy(&d, p, sizeof d);
+    return d;
+}
+
+static sph_status check_numbers(const sph_config *c, sph_report *r)
+{
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const range_check *e = &ranges[i];
+        const double v = number_at(c, e), low = (double)e->low;
+        if (!(v >= low && v <= (double)e->high) || (e->low_open && !(v > low)))
+            return refuse(r, e->what, e->allowed, v);
+    }
+    if (c->port.parallel && c->port.threads > c->max_threads)
+        return refuse(r, "port.threads", "at most max_threads", c->port.threads);
+    if (!(c->smoothing_length >= 0.5 * c->spacing && c->smoothing_length <= 10 * c->spacing))
+        return refuse(r, "smoothing_length", "0.5 .. 10 spacings", c->smoothing_length);
+    if (SPH_IS(c->viscosity, MORRIS) && !(c->nu > 0))
+        return refuse(r, "nu", ">= 0, and > 0 for SPH_MORRIS", c->nu);
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        if (!(sph_abs(c->lo[k]) <= (double)SPH_HUGE))
+            return refuse(r, "lo", "finite", c->lo[k]);
+        if (!(c->hi[k] > c->lo[k]) || !(c->hi[k] <= (double)SPH_HUGE))
+            return refuse(r, "hi", "> lo on every axis, and finite", c->hi[k]);
+        if (!(c->hi[k] - c->lo[k] >= c->spacing)) /* an axis of nearly no length would have no quanta */
+            return refuse(r, "hi", "at least one spacing from lo", c->hi[k] - c->lo[k]);
+        if (!(sph_abs(c->gravity[k]) <= 1e15))
+            return refuse(r, "gravity", "finite", c->gravity[k]);
+    }
+    return SPH_OK;
+}
+
+#define SPH_LEFT_OUT "a choice that was compiled in (modules.h)"
+
+/* modules that are asked for by more than the value of a choice */
+static sph_status check_modules(const sph_config *c, sph_report *r)
+{
+    const char *what = NULL;
+    if (!SPH_WITH_XSPH && c->xsph != 0)
+        what = "xsph";
+    if (!SPH_WITH_SHEPARD && c->shepard_every)
+        what = "shepard_every";
+    if (!SPH_WITH_BOOKS && c->books)
+        what = "books";
+    if (!SPH_WITH_BODY_FORCE && c->body_force)
+        what = "body_force";
+    if (!SPH_WITH_STAGE_LOG && c->stage_log)
+        what = "stage_log";
+    if (what)
+        return refuse(r, what, SPH_LEFT_OUT, 1);
+    if (SPH_IS(c->density, SUMMATION) && (c->diffusion || c->shepard_every))
         return refuse(r, "density", "SPH_CONTINUITY when diffusion or the Shepard filter is on", c->density);
     return SPH_OK;
 }
+
+static sph_status check_faces(const sph_config *c, sph_report *r)
+{
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        for (uint32_t s = 0; s < 2; s++)
+            if (!sph_in(SPH_FACES_IN, c->face[k][s]))
+                return refuse(r, "face", c->face[k][s] >= SPH_FACES ? "one of SPH_OPEN .. SPH_MIRROR_NO_SLIP" : SPH_LEFT_OUT,
+                              c->face[k][s]);
+        if (SPH_WITH_PERIODIC && (c->face[k][0] == SPH_PERIODIC) != (c->face[k][1] == SPH_PERIODIC))
+            return refuse(r, "face", "SPH_PERIODIC on both faces of an axis or on neither", c->face[k][1]);
+    }
+    return SPH_OK;
+}
+
+static const struct {
+    const char *what, *allowed;
+    uint16_t at;
+    uint8_t count, in; /* how many there are, and which were compiled in, as bits */
+} choices[] = {
+    {"kernel", "one of SPH_CUBIC .. SPH_HAT", AT(kernel), SPH_KERNELS, SPH_KERNELS_IN},
+    {"scheme", "one of SPH_STANDARD .. SPH_WEAK_WICK", AT(scheme), SPH_SCHEMES, SPH_SCHEMES_IN},
+    {"density", "SPH_CONTINUITY or SPH_SUMMATION", AT(density), SPH_DENSITIES,
+     1 << SPH_CONTINUITY | SPH_WITH_SUMMATION << SPH_SUMMATION},
+    {"eos", "one of SPH_TAIT .. SPH_ISOTHERMAL", AT(eos), SPH_EOSES, SPH_EOSES_IN},
+    {"viscosity", "one of SPH_INVISCID .. SPH_MORRIS", AT(viscosity), SPH_VISCOSITIES, SPH_VISCOSITIES_IN},
+    {"diffusion", "one of SPH_NO_DIFFUSION .. SPH_HYDROSTATIC", AT(diffusion), SPH_DIFFUSIONS,
+     1 << SPH_NO_DIFFUSION | SPH_WITH_MOLTENI << SPH_MOLTENI | SPH_WITH_HYDROSTATIC << SPH_HYDROSTATIC},
+    {"integrator", "one of SPH_PREDICTOR_CORRECTOR .. SPH_RUNGE_KUTTA_MOMENTUM", AT(integrator), SPH_INTEGRATORS,
+     SPH_INTEGRATORS_IN},
+    {"on_leave", "SPH_FAIL or SPH_REMOVE", AT(on_leave), SPH_REMOVE + 1, 1 << SPH_FAIL | 1 << SPH_REMOVE},
+    {"on_cross", "one of SPH_FAIL .. SPH_IGNORE", AT(on_cross), SPH_POLICIES, (1 << SPH_POLICIES) - 1},
+};
+
+static sph_status check_choices(const sph_config *c, sph_report *r)
+{
+    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
+        uint32_t v;
+        memcpy(&v, (const unsigned char *)c + choices[i].at, sizeof v);
+        if (!sph_in(choices[i].in, v))
+            return refuse(r, choices[i].what, v >= choices[i].count ? choices[i].allowed : SPH_LEFT_OUT, v);
+    }
+    sph_status st = check_faces(c, r);
+    return st ? st : check_modules(c, r);
+}
+#undef AT
 
 sph_status sph_config_check(const sph_config *c, sph_report *r)
 {
@@ -104,49 +210,15 @@ sph_status sph_config_check(const sph_config *c, sph_report *r)
         return refuse(r, "configuration", "a pointer to a configuration", 0);
     if (c->cookie != SPH_COOKIE)
         return refuse(r, "cookie", "a configuration made by sph_config_default of this version", c->cookie);
-    const range_check list[] = {
-        {"max_particles", "1 .. 2^30", c->max_particles, 1, 1073741824.0, false},
-        {"max_threads", "1 .. 256", c->max_threads, 1, 256, false},
-        {"spacing", "> 0", c->spacing, 0, SPH_HUGE, true},
-        {"smoothing_length", "0.5 .. 10 spacings", c->smoothing_length, 0.5 * c->spacing, 10 * c->spacing, false},
-        {"rho0", "> 0", c->rho0, 0, SPH_HUGE, true},
-        {"sound_speed", "> 0", c->sound_speed, 0, 1e15, true},
-        {"alpha", ">= 0", c->alpha, 0, 1e6, false},
-        {"beta", ">= 0", c->beta, 0, 1e6, false},
-        {"nu", ">= 0, and > 0 for SPH_MORRIS", c->nu, 0, SPH_HUGE, c->viscosity == SPH_MORRIS},
-        {"delta", "0 .. 10", c->delta, 0, 10, false},
-        {"xsph", "0 .. 1", c->xsph, 0, 1, false},
-        {"damping", "> 0 and <= 1", c->damping, 0, 1, true},
-        {"dt", ">= 0 (0: controlled)", c->dt, 0, SPH_HUGE, false},
-        {"cfl", "> 0 and <= 10", c->cfl, 0, 10, true},
-        {"viscous_factor", "> 0 and <= 10", c->viscous_factor, 0, 10, true},
-        {"force_factor", "> 0 and <= 10", c->force_factor, 0, 10, true},
-        {"gravity_factor", "> 0 and <= 10", c->gravity_factor, 0, 10, true},
-        {"dt_max", ">= 0 (0: none)", c->dt_max, 0, SPH_HUGE, false},
-        {"dt_min", ">= 0", c->dt_min, 0, SPH_HUGE, false},
-    };
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
-        const range_check *e = &list[i];
-        if (!(e->value >= e->low && e->value <= e->high) || (e->low_open && e->value == e->low))
-            return refuse(r, e->what, e->allowed, e->value);
-    }
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        if (!(sph_abs(c->lo[k]) <= SPH_HUGE))
-            return refuse(r, "lo", "finite", c->lo[k]);
-        if (!(c->hi[k] > c->lo[k]) || !(c->hi[k] <= SPH_HUGE))
-            return refuse(r, "hi", "> lo on every axis, and finite", c->hi[k]);
-        if (!(sph_abs(c->gravity[k]) <= 1e15))
-            return refuse(r, "gravity", "finite", c->gravity[k]);
-    }
-    return check_choices(c, r);
+    sph_status st = check_numbers(c, r);
+    return st ? st : check_choices(c, r);
 }
 
 /* ---- grid ---- */
 
 /* the grid: quantum, extents in quanta, cells at least one support wide */
-static sph_status make_grid(sph_sim *s, sph_report *r)
+static sph_status make_grid(const sph_config *c, sph_grid *s, sph_report *r)
 {
-    const sph_config *c = &s->cfg;
     s->support = sph_kernel_support(c->kernel) * c->smoothing_length;
     double longest = 0;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
@@ -167,7 +239,7 @@ static sph_status make_grid(sph_sim *s, sph_report *r)
         s->extent[k] = (sph_pos)(s->length[k] / quantum + 0.5);
         double n = s->length[k] / (s->support * 1.000001);
         s->ncell[k] = n < 1 ? 1 : (uint32_t)n;
-        if (c->face[k][0] == SPH_PERIODIC && s->ncell[k] < 3)
+        if (SPH_IS(c->face[k][0], PERIODIC) && s->ncell[k] < 3)
             return refuse(r, "hi", "at least three supports from lo along a periodic axis", s->length[k]);
         /* mul is rounded down so that a position at the domain's end still falls into the last cell */
         uint64_t ext = (uint64_t)(s->extent[k] >> s->pos_shift) + 1;
@@ -190,10 +262,15 @@ typedef struct layout {
     size_t at;
     void (*fn)(void *ctx, const char *name, size_t bytes);
     void *ctx;
+    bool over; /* more than this machine can address */
 } layout;
 
 static void *take(layout *l, const char *name, size_t count, size_t size)
 {
+    if (count > (SIZE_MAX / 2 - l->at - SPH_ALIGN) / size) {
+        l->over = true;
+        return NULL;
+    }
     size_t bytes = (count * size + SPH_ALIGN - 1) / SPH_ALIGN * SPH_ALIGN;
     void *p = l->base ? l->base + l->at : NULL;
     l->at += bytes;
@@ -202,76 +279,101 @@ static void *take(layout *l, const char *name, size_t count, size_t size)
     return p;
 }
 
-static bool uses_rk(const sph_config *c) { return c->integrator >= SPH_RUNGE_KUTTA; }
+static bool uses_rk(const sph_config *c) { return SPH_HAS_RUNGE_KUTTA && c->integrator >= SPH_RUNGE_KUTTA; }
 
-static void lay_out(sph_sim *s, layout *l)
+/* one array of the simulation; s null: measure only */
+#define SPH_PLACE(member, name, count, size)                                                                \
+    do {                                                                                                    \
+        void *place = take(l, name, count, size);                                                           \
+        if (s)                                                                                              \
+            s->member = place;                                                                              \
+    } while (0)
+
+static const struct {
+    const char *name;
+    uint8_t at, comps, bytes; /* number of its first pointer in sph_buffer, components, bytes of an element */
+} state_fields[] = {
+#define SPH_FIELD_ROW(name, type, comps, unit, when)                                                        \
+    {"state: " #name, offsetof(sph_buffer, name) / sizeof(void *), comps, sizeof(type)},
+    SPH_STATE_FIELDS(SPH_FIELD_ROW)
+#undef SPH_FIELD_ROW
+};
+
+static void lay_out_state(const sph_config *c, sph_sim *s, uint32_t b, layout *l)
 {
-    const sph_config *c = &s->cfg;
-    size_t n = (size_t)c->max_particles + SPH_PAD;
-    s->set = take(l, "sets", SPH_MAX_SETS, sizeof *s->set);
-    s->group = take(l, "wall groups", SPH_MAX_GROUPS, sizeof *s->group);
-    s->thread = take(l, "thread scratch", c->max_threads, sizeof(struct sph_thread));
-    s->buffers = uses_rk(c) ? 3 : 2;
-    for (uint32_t b = 0; b < s->buffers; b++) {
-#define SPH_FIELD_TAKE(name, type, comps, unit, when)                                                       \
-    for (uint32_t k = 0; k < (comps); k++)                                                                  \
-        s->buf[b].name[k] = (when) ? take(l, "state: " #name, n, sizeof(type)) : NULL;
-        SPH_STATE_FIELDS(SPH_FIELD_TAKE)
-#undef SPH_FIELD_TAKE
-    }
-    s->cell = take(l, "cell starts", (size_t)s->cells + 2, sizeof *s->cell);
-    s->slab = take(l, "slab starts", (size_t)s->slabs + 1, sizeof *s->slab);
-    bool filter = c->shepard_every || c->density == SPH_SUMMATION;
-    s->tmp = filter ? take(l, "filtered density", n, sizeof *s->tmp) : NULL;
-    for (uint32_t k = 0; k < SPH_POWERS; k++)
-        s->power[k] = c->books ? take(l, "powers for the books", n, sizeof(sph_real)) : NULL;
-    s->partials = c->books ? c->max_particles / SPH_LOCAL_CHUNK + 1 : 0;
-    s->partial = c->books ? take(l, "partial sums for the books", s->partials, SPH_POWERS * sizeof(double)) : NULL;
+    uint32_t wanted = 0, bit = 0;
+#define SPH_FIELD_WANTED(name, type, comps, unit, when) wanted |= (uint32_t)(when) << bit++;
+    SPH_STATE_FIELDS(SPH_FIELD_WANTED)
+#undef SPH_FIELD_WANTED
+    for (uint32_t f = 0; f < bit; f++)
+        for (uint32_t k = 0; wanted >> f & 1 && k < state_fields[f].comps; k++) {
+            void *p = take(l, state_fields[f].name, (size_t)c->max_particles + SPH_PAD, state_fields[f].bytes);
+            if (s)
+                memcpy((unsigned char *)&s->buf[b] + (state_fields[f].at + k) * sizeof p, &p, sizeof p);
+        }
 }
 
-/* a simulation that is only good for measuring */
-static sph_status measure(sph_sim *s, const sph_config *c, size_t *bytes, sph_report *r)
+/* everything but the header; s null: measure only */
+static void lay_out(const sph_config *c, const sph_grid *g, sph_sim *s, layout *l)
+{
+    const size_t n = (size_t)c->max_particles + SPH_PAD;
+    const uint32_t buffers = uses_rk(c) ? 3 : 2, partials = c->max_particles / SPH_LOCAL_CHUNK + 1;
+    SPH_PLACE(set, "sets", c->max_sets, sizeof *s->set);
+    SPH_PLACE(group, "wall groups", SPH_MAX_GROUPS, sizeof *s->group);
+    SPH_PLACE(thread, "thread scratch", c->max_threads, sizeof(struct sph_thread));
+    for (uint32_t b = 0; b < buffers; b++)
+        lay_out_state(c, s, b, l);
+    SPH_PLACE(cell, "cell starts", (size_t)g->cells + 2, sizeof *s->cell);
+    SPH_PLACE(slab, "slab starts", (size_t)g->slabs + 1, sizeof *s->slab);
+    if (sph_filters(c) || sph_sums_density(c))
+        SPH_PLACE(tmp, "filtered density", n, sizeof *s->tmp);
+    if (sph_keeps_books(c)) {
+        for (uint32_t k = 0; k < SPH_POWERS; k++)
+            SPH_PLACE(power[k], "powers for the books", n, sizeof(sph_real));
+        SPH_PLACE(partial, "partial sums for the books", partials, SPH_POWERS * sizeof(double));
+    }
+    if (s)
+        s->buffers = buffers;
+}
+
+/* the grid and the bytes that a configuration needs */
+static sph_status measure(const sph_config *c, sph_grid *g, size_t *bytes, sph_report *r)
 {
     sph_status st = sph_config_check(c, r);
+    if (!st)
+        st = make_grid(c, g, r);
     if (st)
         return st;
-    memset(s, 0, sizeof *s);
-    s->cfg = *c;
-    if ((st = make_grid(s, r)) != SPH_OK)
-        return st;
-    layout l = {NULL, 0, NULL, NULL};
-    take(&l, "header", 1, sizeof *s);
-    lay_out(s, &l);
+    layout l = {NULL, 0, NULL, NULL, false};
+    take(&l, "header", 1, sizeof(sph_sim));
+    lay_out(c, g, NULL, &l);
     *bytes = l.at;
-    return SPH_OK;
+    return l.over ? refuse(r, "max_particles", "an arena that this machine can address", c->max_particles) : SPH_OK;
 }
 
 size_t sph_arena_bytes(const sph_config *cfg)
 {
-    sph_sim s;
+    sph_grid g;
     size_t bytes = 0;
-    return measure(&s, cfg, &bytes, NULL) == SPH_OK ? bytes : 0;
+    return measure(cfg, &g, &bytes, NULL) == SPH_OK ? bytes : 0;
 }
 
 /* ---- arithmetic probe: what the rule of same bits needs from compiler and machine ---- */
 
-static __attribute__((noinline)) sph_real probe_mul(sph_real a, sph_real b) { return a * b; }
-static __attribute__((noinline)) sph_real probe_mul_add(sph_real a, sph_real b, sph_real c) { return a * b + c; }
-static __attribute__((noinline)) sph_real probe_add3(sph_real a, sph_real b, sph_real c) { return a + b + c; }
-
 /* the name of what is wrong, or null */
 static const char *probe_arithmetic(void)
 {
-    const sph_real eps = SPH_DOUBLE ? (sph_real)2.220446049250313e-16 : (sph_real)1.1920929e-7;
-    sph_real e = eps, one = 1;
+    /* the operands come from volatile memory, so that no compiler can do the sums itself */
+    volatile sph_real v_one = 1, v_half = (sph_real)0.5, v_eps = SPH_DOUBLE ? (sph_real)2.220446049250313e-16 : (sph_real)1.1920929e-7;
+    volatile sph_real v_least = SPH_DOUBLE ? (sph_real)2.2250738585072014e-308 : (sph_real)1.17549435e-38f;
+    const sph_real one = v_one, e = v_eps, up = one + e, down = one - e, half = e * v_half;
     /* (1+e)(1-e) = 1 - e^2 rounds to 1; contracted, the sum with -1 keeps -e^2 */
-    if (probe_mul_add(one + e, one - e, -one) != 0)
+    if (up * down + -one != 0)
         return "contraction of a*b+c (build with -ffp-contract=off)";
     /* (1 + e/2) + e/2 is 1 twice rounded, 1 + e in excess precision */
-    if (probe_add3(one, e / 2, e / 2) != 1)
+    if (one + half + half != 1)
         return "excess precision (use SSE2 arithmetic on 32-bit x86)";
-    sph_real small = SPH_DOUBLE ? (sph_real)2.2250738585072014e-308 : (sph_real)1.17549435e-38f;
-    if (probe_mul(small, (sph_real)0.5) == 0)
+    if (v_least * v_half == 0)
         return "flush to zero of subnormal numbers";
     return NULL;
 }
@@ -286,8 +388,8 @@ sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t by
         return r->status;
     }
     size_t need = 0;
-    sph_sim s;
-    sph_status st = measure(&s, cfg, &need, r);
+    sph_grid grid;
+    sph_status st = measure(cfg, &grid, &need, r);
     if (st)
         return st;
     const char *broken = probe_arithmetic();
@@ -302,10 +404,11 @@ sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t by
     if (r->status)
         return r->status;
     memset(arena, 0, need);
-    layout l = {arena, 0, NULL, NULL};
+    layout l = {arena, 0, NULL, NULL, false};
     sph_sim *sim = take(&l, "header", 1, sizeof *sim);
-    *sim = s;
-    lay_out(sim, &l);
+    sim->cfg = *cfg;
+    sim->grid = grid;
+    lay_out(cfg, &grid, sim, &l);
     sim->magic = sph_sim_magic;
     sim->arena_bytes = bytes;
     sim->arena_used = need;
@@ -318,24 +421,32 @@ sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t by
 
 void sph_arena_report(const sph_sim *sim, void (*fn)(void *ctx, const char *name, size_t bytes), void *ctx)
 {
-    sph_sim copy = *sim;
-    layout l = {NULL, 0, fn, ctx};
-    take(&l, "header", 1, sizeof copy);
-    lay_out(&copy, &l);
+    if (!sim || !fn)
+        return;
+    layout l = {NULL, 0, fn, ctx, false};
+    take(&l, "header", 1, sizeof *sim);
+    lay_out(&sim->cfg, &sim->grid, NULL, &l);
 }
 
 void sph_get_usage(const sph_sim *sim, sph_usage *out)
 {
-    *out = (sph_usage){sim->arena_bytes, sim->arena_used,  sim->mark_particles, sim->cfg.max_particles, sim->cells,
-                       sim->mark_cell,   sim->mark_work, sim->mark_slice,     sim->sets,
-                       sim->groups};
+    if (!sim || !out)
+        return;
+    *out = (sph_usage){sim->arena_bytes, sim->arena_used,  sim->mark_particles, sim->cfg.max_particles, sim->grid.cells,
+                       sim->mark_cell,   sim->mark_work,  sim->mark_slice,    sim->sets,              sim->groups};
 }
 
-const sph_report *sph_last(const sph_sim *sim) { return &sim->report; }
+const sph_report *sph_last(const sph_sim *sim)
+{
+    static const sph_report none = {SPH_BAD_ARGUMENT, "sim", "a simulation made by sph_init", "", 0, SPH_NO_PARTICLE};
+    return sim ? &sim->report : &none;
+}
 
 /* records a failure and tells the host's fault hook */
 sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     const char *pass = sim->begun && sim->pc < sim->passes ? sim->program[sim->pc]->name : "";
     sim->report = (sph_report){s, what, allowed, pass, value, particle};
     if (sim->cfg.port.fault)
@@ -346,6 +457,8 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
 sph_status sph_reconfigure(sph_sim *sim, const sph_config *cfg)
 {
     sph_report r;
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "reconfigure", "between steps", 0, SPH_NO_PARTICLE);
     if (sph_config_check(cfg, &r) != SPH_OK)
@@ -354,12 +467,13 @@ sph_status sph_reconfigure(sph_sim *sim, const sph_config *cfg)
     if (sph_hash_config(cfg) != sph_hash_config(&sim->cfg) || cfg->max_threads > sim->cfg.max_threads)
         return sph_error(sim, SPH_BAD_CONFIG, "configuration",
                          "unchanged but for gravity, damping, dt and hooks", 0, SPH_NO_PARTICLE);
-    uint32_t threads = sim->cfg.max_threads;
+    const uint32_t threads = sim->cfg.max_threads, sets = sim->cfg.max_sets;
     bool same_gravity = sim->cfg.body_force == cfg->body_force;
     for (int k = 0; k < SPH_DIM; k++)
         same_gravity &= !(sim->cfg.gravity[k] < cfg->gravity[k]) && !(sim->cfg.gravity[k] > cfg->gravity[k]);
     sim->cfg = *cfg;
     sim->cfg.max_threads = threads;
+    sim->cfg.max_sets = sets;
     sph_make_factors(sim);
     if (!same_gravity)
         sim->now.primed = false; /* the stored forces are of the old gravity */

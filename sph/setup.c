@@ -4,7 +4,6 @@
    Ghost layers stand on the continuation of the fluid's lattice: centres half a spacing behind the wall, then one
    spacing apart, as many as the kernel's support needs (Gray 2001 section 2.4). Where two chosen faces of a tank meet, the
    particles behind both get the diagonal normal (his figure 2.4). Boundary-force particles stand on the wall itself. */
-#include "dmath.h"
 #include "internal.h"
 
 static sph_status bad(sph_sim *sim, const char *what, const char *allowed, double value)
@@ -13,15 +12,27 @@ static sph_status bad(sph_sim *sim, const char *what, const char *allowed, doubl
 }
 
 /* everything of set-up needs a simulation that is not in the middle of a step */
-static sph_status idle(sph_sim *sim, const char *call)
+static __attribute__((noinline)) sph_status idle(sph_sim *sim, const char *call)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     return sim->begun ? sph_error(sim, SPH_BAD_STATE, call, "between steps", 0, SPH_NO_PARTICLE) : SPH_OK;
 }
 
-static uint32_t round_up(double x) { return x <= 0 ? 0 : x >= 4e9 ? 4000000000u : (uint32_t)(x + 0.999999); }
+/* 0, which asks for a default, or between 1/most and most, whose squares and quotients stay in a double's range */
+static __attribute__((noinline)) sph_status check_positive(sph_sim *sim, const char *what, double v, float most)
+{
+    if (v == 0 || (v >= 1 / (double)most && v <= (double)most))
+        return SPH_OK;
+    return bad(sim, what, most > 1e20f ? "0 or 1e-30 .. 1e30" : "0 or 1e-15 .. 1e15", v);
+}
+
+#if SPH_HAS_WALLS || SPH_WITH_SHAPES
+static __attribute__((noinline)) uint32_t round_up(double x) { return x <= 0 ? 0 : x >= 4e9 ? 4000000000u : (uint32_t)(x + 0.999999); }
+#endif
 
 /* number of lattice intervals in a length, at least one; 0 if there are absurdly many */
-static uint32_t intervals(double length, double dx)
+static __attribute__((noinline)) uint32_t intervals(double length, double dx)
 {
     double n = length / dx + 0.5;
     return n < 1 ? 1 : n < 1073741824.0 ? (uint32_t)n : 0;
@@ -32,7 +43,7 @@ static uint32_t intervals(double length, double dx)
 static void finish_set(sph_sim *sim, sph_set *s)
 {
     double scale = s->c0 * s->c0 * s->rho0;
-    if (sim->cfg.eos == SPH_TAIT)
+    if (SPH_IS(sim->cfg.eos, TAIT))
         scale /= 7;
     s->mass_r = (sph_real)s->mass;
     s->rho0_r = (sph_real)s->rho0;
@@ -65,14 +76,12 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
     if (!set)
         return bad(sim, "set", "a place for the set's number", 0);
     double mass = f ? f->mass : 0, rho0 = f ? f->rho0 : 0, c0 = f ? f->sound_speed : 0;
-    if (!(mass >= 0 && mass < 1e30))
-        return bad(sim, "fluid.mass", ">= 0", mass);
-    if (!(rho0 >= 0 && rho0 < 1e30))
-        return bad(sim, "fluid.rho0", ">= 0", rho0);
-    if (!(c0 >= 0 && c0 < 1e15))
-        return bad(sim, "fluid.sound_speed", ">= 0", c0);
-    if (sim->sets == SPH_MAX_SETS)
-        return sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most SPH_MAX_SETS", sim->sets, SPH_NO_PARTICLE);
+    if ((st = check_positive(sim, "fluid.mass", mass, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, "fluid.rho0", rho0, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, "fluid.sound_speed", c0, 1e15f)) != SPH_OK)
+        return st;
+    if (sim->sets == sim->cfg.max_sets)
+        return sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most max_sets", sim->sets, SPH_NO_PARTICLE);
     sph_set *s = &sim->set[sim->sets];
     memset(s, 0, sizeof *s);
     s->role = SPH_ROLE_FLUID;
@@ -88,9 +97,9 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
 /* ---- particles ---- */
 
 /* x (m, from the domain's low corner) in quanta; the caller has checked the range */
-static sph_pos to_quanta(const sph_sim *sim, double x)
+static __attribute__((noinline)) sph_pos to_quanta(const sph_sim *sim, double x)
 {
-    double q = x / sim->quantum;
+    double q = x / sim->grid.quantum;
     return (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
 }
 
@@ -101,13 +110,13 @@ static sph_status append(sph_sim *sim, uint32_t set, const double *x, const doub
     if (n == sim->cfg.max_particles)
         return sph_error(sim, SPH_TOO_MANY_PARTICLES, "max_particles", "more than were asked for", n, SPH_NO_PARTICLE);
     for (int k = 0; k < SPH_DIM; k++)
-        if (!(x[k] >= 0 && x[k] < sim->length[k]))
+        if (!(x[k] >= 0 && x[k] < sim->grid.length[k]))
             return bad(sim, "position", "inside the domain, walls included", x[k] + sim->cfg.lo[k]);
     sph_buffer *b = &sim->buf[sim->cur];
     for (int k = 0; k < SPH_DIM; k++) {
         b->pos[k][n] = to_quanta(sim, x[k]);
-        if (b->pos[k][n] >= sim->extent[k])
-            b->pos[k][n] = sim->extent[k] - 1;
+        if (b->pos[k][n] >= sim->grid.extent[k])
+            b->pos[k][n] = sim->grid.extent[k] - 1;
         b->vel[k][n] = (sph_real)(v ? v[k] : 0);
         b->acc[k][n] = 0;
         if (b->xsph[k])
@@ -135,7 +144,7 @@ static sph_status begin_adding(sph_sim *sim, const char *call)
     return SPH_OK;
 }
 
-static sph_status end_adding(sph_sim *sim, uint32_t before, sph_status st)
+static __attribute__((noinline)) sph_status end_adding(sph_sim *sim, uint32_t before, sph_status st)
 {
     if (st)
         sim->now.count = before;
@@ -153,7 +162,7 @@ static sph_status check_set(sph_sim *sim, uint32_t set)
     return SPH_OK;
 }
 
-static sph_status check_vector(sph_sim *sim, const char *what, const double *v)
+static __attribute__((noinline)) sph_status check_vector(sph_sim *sim, const char *what, const double *v)
 {
     for (int k = 0; k < SPH_DIM; k++)
         if (!(sph_abs(v[k]) < 1e15))
@@ -183,6 +192,12 @@ sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const d
     return end_adding(sim, before, st);
 }
 
+/* a lattice must begin and end within a domain's length of the domain: its points are all looked at, one by one */
+static bool near_domain(const sph_sim *sim, int k, double lo, double hi)
+{
+    return lo >= sim->cfg.lo[k] - sim->grid.length[k] && hi <= sim->cfg.hi[k] + sim->grid.length[k];
+}
+
 /* calls append for the lattice points of a box for which inside() holds */
 typedef bool (*inside_fn)(const void *shape, const double *x);
 static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const double *lo, const double *hi, const double *v,
@@ -199,6 +214,8 @@ static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const doubl
     for (int k = 0; k < SPH_DIM; k++) {
         if (!(hi[k] > lo[k]))
             return bad(sim, "hi", "> lo on every axis", hi[k]);
+        if (!near_domain(sim, k, lo[k], hi[k]))
+            return bad(sim, "hi", "a shape within a domain's length of the domain", hi[k]);
         if ((n[k] = intervals(hi[k] - lo[k], dx)) == 0)
             return bad(sim, "hi", "at most 2^30 spacings from lo", hi[k]);
     }
@@ -225,6 +242,7 @@ sph_status sph_add_box(sph_sim *sim, uint32_t set, const double *lo, const doubl
     return fill(sim, "sph_add_box", set, lo, hi, v, NULL, NULL);
 }
 
+#if SPH_WITH_SHAPES
 typedef struct ring {
     double centre[SPH_DIM], inner2, outer2;
 } ring;
@@ -238,7 +256,7 @@ static bool in_ring(const void *shape, const double *x)
 }
 sph_status sph_add_ring(sph_sim *sim, uint32_t set, const double *centre, double inner, double outer, const double *v)
 {
-    if (!centre)
+    if (!sim || !centre)
         return bad(sim, "centre", "a position", 0);
     if (!(inner >= 0) || !(outer > inner) || !(outer < 1e15))
         return bad(sim, "outer", "finite and > inner >= 0", outer);
@@ -289,6 +307,9 @@ sph_status sph_add_polygon(sph_sim *sim, uint32_t set, const double (*corner)[2]
 }
 #endif
 
+#endif
+
+#if SPH_WITH_FIELDS
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx)
 {
     sph_status st = idle(sim, "sph_apply_field");
@@ -296,14 +317,15 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
         return st;
     if (!fn)
         return bad(sim, "fn", "a function", 0);
-    sph_buffer *b = &sim->buf[sim->cur];
+    /* values wait in the buffer that is not in use until all were seen to be right */
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers];
     double rho0 = sim->set[set].rho0;
     for (uint32_t i = 0; i < sim->now.count; i++) {
         if (b->set[0][i] != set)
             continue;
         double x[SPH_DIM], v[SPH_DIM], rho = rho0 * (1 + (double)b->rho[0][i]);
         for (int k = 0; k < SPH_DIM; k++) {
-            x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->quantum;
+            x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
             v[k] = (double)b->vel[k][i];
         }
         fn(ctx, x, v, &rho);
@@ -312,44 +334,68 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
         if (!(rho > 0 && rho < 100 * rho0))
             return bad(sim, "field density", "between 0 and 100 rho0", rho);
         for (int k = 0; k < SPH_DIM; k++)
-            b->vel[k][i] = (sph_real)v[k];
-        b->rho[0][i] = (sph_real)((rho - rho0) / rho0);
+            wait->vel[k][i] = (sph_real)v[k];
+        wait->rho[0][i] = (sph_real)((rho - rho0) / rho0);
+    }
+    for (uint32_t i = 0; i < sim->now.count; i++) {
+        if (b->set[0][i] != set)
+            continue;
+        for (int k = 0; k < SPH_DIM; k++)
+            b->vel[k][i] = wait->vel[k][i];
+        b->rho[0][i] = wait->rho[0][i];
     }
     sim->now.primed = false;
     return SPH_OK;
+}
+
+#endif
+
+/* (1 + d)^7 - 1, exact for small d */
+static __attribute__((noinline)) double seventh(double d)
+{
+    return d * (7 + d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d))))));
 }
 
 /* pressure at relative density excess d, and the excess at a pressure: the equations of state (Gray 2001 eq 2.25) */
 double sph_pressure(const sph_sim *sim, const sph_set *s, double d)
 {
     double p, b = (double)s->b_r;
-    switch (sim->cfg.eos) {
-    case SPH_LINEAR: p = b * d; break;
-    case SPH_ISOTHERMAL: p = b * (1 + d); break;
-    default: p = b * (d * (7 + d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d))))))); break;
-    }
+    if (SPH_IS(sim->cfg.eos, LINEAR))
+        p = b * d;
+    else if (SPH_IS(sim->cfg.eos, ISOTHERMAL))
+        p = b * (1 + d);
+    else
+        p = b * seventh(d);
     return sim->cfg.pressure_floor && p < 0 ? 0 : p;
 }
 double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
 {
     double y = p / (double)s->b_r;
-    switch (sim->cfg.eos) {
-    case SPH_LINEAR: return y;
-    case SPH_ISOTHERMAL: return y - 1;
-    default: break;
-    }
+    if (SPH_IS(sim->cfg.eos, LINEAR))
+        return y;
+    if (SPH_IS(sim->cfg.eos, ISOTHERMAL))
+        return y - 1;
     if (y < -0.99)
         y = -0.99;
-    /* (1 + y)^(1/7) - 1 by Newton; each step squares the error, so the counts reach rounding from these guesses */
-    double d = y > 1 ? sph_pow(1 + y, 1.0 / 7) - 1 : y * (1.0 / 7 - y * (3.0 / 49));
-    for (int i = sph_abs(y) < 0.1 ? 2 : 7; i > 0; i--) {
-        double f = d * (7 + d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d)))))) - y;
+    /* (1 + y)^(1/7) - 1 by Newton; near the root each step squares the error, so the counts reach rounding from these
+       guesses. Where y > 1 the guess is a power of two at most twice the root, and a step takes a seventh of it off. */
+    double d = y * (1.0 / 7 - y * (3.0 / 49));
+    int steps = sph_abs(y) < 0.1 ? 2 : 7;
+    if (y > 1) {
+        d = 1;
+        for (double t = 1 + y; t > 128 && d < 1e30; t /= 128)
+            d = 2 * d + 1;
+        steps = 12;
+    }
+    for (int i = steps; i > 0; i--) {
+        const double f = seventh(d) - y;
         double s2 = (1 + d) * (1 + d), s6 = s2 * s2 * s2;
         d -= f / (7 * s6);
     }
     return d;
 }
 
+#if SPH_WITH_FIELDS
 sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface)
 {
     sph_status st = idle(sim, "sph_apply_hydrostatic");
@@ -366,17 +412,26 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface)
         return bad(sim, "surface", "finite, with gravity along one axis", surface);
     const sph_set *s = &sim->set[set];
     double g = sim->cfg.gravity[axis];
-    sph_buffer *b = &sim->buf[sim->cur];
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers]; /* as sph_apply_field */
     for (uint32_t i = 0; i < sim->now.count; i++)
         if (b->set[0][i] == set) {
-            double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->quantum;
+            double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->grid.quantum;
             double p = s->rho0 * g * (x - surface); /* g < 0: below the surface p > 0 */
-            b->rho[0][i] = (sph_real)sph_density_of(sim, s, p > 0 ? p : 0);
+            double d = sph_density_of(sim, s, p > 0 ? p : 0);
+            if (!(d >= -1 && d < 99))
+                return bad(sim, "surface", "a depth at which density stays below 100 rho0", surface);
+            wait->rho[0][i] = (sph_real)d;
         }
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        if (b->set[0][i] == set)
+            b->rho[0][i] = wait->rho[0][i];
     sim->now.primed = false;
     return SPH_OK;
 }
 
+#endif
+
+#if SPH_HAS_WALLS
 /* ---- walls ---- */
 
 sph_wall sph_wall_default(void)
@@ -387,17 +442,19 @@ sph_wall sph_wall_default(void)
     return w;
 }
 
-static bool layered(const sph_wall *w) { return w->kind == SPH_WALL_GHOST || w->kind == SPH_WALL_ADAMI; }
+static bool layered(const sph_wall *w)
+{
+    return !SPH_HAS_FORCE_WALLS || SPH_IS(w->kind, WALL_GHOST) || SPH_IS(w->kind, WALL_ADAMI);
+}
 
 static double default_strength(const sph_sim *sim, uint32_t kind)
 {
     double c2 = sim->cfg.sound_speed * sim->cfg.sound_speed;
-    switch (kind) {
-    case SPH_WALL_LENNARD_JONES: return c2 / 200; /* g H with Gray's c^2 = 200 g H */
-    case SPH_WALL_KERNEL_FORCE: return 0.01;
-    case SPH_WALL_MONAGHAN_KOS: return 0.01 * c2 / sim->cfg.spacing;
-    default: return 0;
-    }
+    if (SPH_IS(kind, WALL_LENNARD_JONES))
+        return c2 / 200; /* g H with Gray's c^2 = 200 g H */
+    if (SPH_IS(kind, WALL_KERNEL_FORCE))
+        return 0.01;
+    return SPH_IS(kind, WALL_MONAGHAN_KOS) ? 0.01 * c2 / sim->cfg.spacing : 0;
 }
 
 static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
@@ -409,6 +466,10 @@ static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
         return bad(sim, "wall", "a description of the wall", 0);
     if (w->kind >= SPH_WALLS)
         return bad(sim, "wall.kind", "one of SPH_WALL_LENNARD_JONES .. SPH_WALL_ADAMI", w->kind);
+    if (!sph_in(SPH_WALLS_IN, w->kind))
+        return bad(sim, "wall.kind", "a kind that was compiled in (modules.h)", w->kind);
+    if (!SPH_WITH_MOVING_WALLS && w->motion)
+        return bad(sim, "wall.motion", "null: moving walls were left out (modules.h)", 1);
     if (!(w->strength >= 0 && w->strength < 1e30))
         return bad(sim, "wall.strength", ">= 0", w->strength);
     if (w->layers > 64)
@@ -434,10 +495,7 @@ static sph_status finish_wall(sph_sim *sim, const sph_wall *w, wall_mark m, sph_
         sim->setup_hash = m.hash;
         return end_adding(sim, m.count, st);
     }
-    sim->has_ghost |= w->kind == SPH_WALL_GHOST;
     sim->has_adami |= w->kind == SPH_WALL_ADAMI;
-    sim->has_adami_slip |= w->kind == SPH_WALL_ADAMI && w->no_slip;
-    sim->has_compressible |= w->kind == SPH_WALL_GHOST && w->compressible;
     sim->has_force_wall |= !layered(w);
     sim->group[sim->groups] = (sph_group){w->motion, w->motion_ctx};
     memset(&sim->now.group[sim->groups], 0, sizeof sim->now.group[0]);
@@ -451,8 +509,8 @@ static sph_status finish_wall(sph_sim *sim, const sph_wall *w, wall_mark m, sph_
 /* a new set for one face or corner; origin, normal, tangent, half are from the caller */
 static sph_set *new_wall_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
 {
-    if (sim->sets == SPH_MAX_SETS) {
-        sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most SPH_MAX_SETS", sim->sets, SPH_NO_PARTICLE);
+    if (sim->sets == sim->cfg.max_sets) {
+        sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most max_sets", sim->sets, SPH_NO_PARTICLE);
         return NULL;
     }
     *index = sim->sets++;
@@ -484,14 +542,16 @@ static void bound_region(sph_sim *sim, sph_set *s)
         reach[2] = s->half[1] * sph_abs(t2);
 #endif
         double r = reach[0] + reach[1] + reach[2];
-        s->low[k] = to_quanta(sim, s->origin[k] - r) - 1;
-        s->high[k] = to_quanta(sim, s->origin[k] + r) + 1;
+        /* no further than a domain's length outside: nothing is found there, and integers stay small */
+        const double low = s->origin[k] - r, high = s->origin[k] + r, far = sim->grid.length[k];
+        s->low[k] = low > -far ? low < 2 * far ? to_quanta(sim, low) - 1 : 2 * sim->grid.extent[k] - 1 : -sim->grid.extent[k];
+        s->high[k] = high > -far ? high < 2 * far ? to_quanta(sim, high) + 1 : 2 * sim->grid.extent[k] - 1 : -sim->grid.extent[k];
     }
 }
 
 static uint32_t wall_layers(const sph_sim *sim, const sph_wall *w)
 {
-    return w->layers ? w->layers : round_up(sim->support / sim->cfg.spacing);
+    return w->layers ? w->layers : round_up(sim->grid.support / sim->cfg.spacing);
 }
 
 /* lattice of a box and its surroundings along one axis */
@@ -649,6 +709,8 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
     for (int k = 0; k < SPH_DIM; k++) {
         if (!(hi[k] > lo[k]) || !(sph_abs(lo[k]) < 1e15) || !(sph_abs(hi[k]) < 1e15))
             return bad(sim, "hi", "finite and > lo on every axis", hi[k]);
+        if (!near_domain(sim, k, lo[k], hi[k]))
+            return bad(sim, "hi", "a box within a domain's length of the domain", hi[k]);
         axis_lattice *a = &b.ax[k];
         uint32_t n = intervals(hi[k] - lo[k], sim->cfg.spacing);
         if (n == 0 || n > 100000000u)
@@ -764,6 +826,9 @@ sph_status sph_add_wall_plane(sph_sim *sim, const sph_wall *wall, const double *
 }
 #endif
 
+#endif
+
+#if SPH_WITH_MOVING_WALLS
 sph_status sph_remove_wall_at(sph_sim *sim, uint32_t group, double t)
 {
     sph_status st = idle(sim, "sph_remove_wall");
@@ -778,13 +843,20 @@ sph_status sph_remove_wall_at(sph_sim *sim, uint32_t group, double t)
         sim->now.primed = false; /* forces must be made anew without the wall */
     return SPH_OK;
 }
-sph_status sph_remove_wall(sph_sim *sim, uint32_t group) { return sph_remove_wall_at(sim, group, sim->now.time); }
+sph_status sph_remove_wall(sph_sim *sim, uint32_t group)
+{
+    return sph_remove_wall_at(sim, group, sim ? sim->now.time : 0);
+}
 
 void sph_motion_table(void *ctx, double t, double *displacement, double *velocity)
 {
     const sph_table *m = ctx;
     uint32_t i = 0;
     double x, v = 0;
+    for (int k = 0; k < SPH_DIM; k++)
+        displacement[k] = velocity[k] = 0;
+    if (!m || !m->rows || !m->t || !m->x || m->axis >= SPH_DIM)
+        return;
     while (i + 1 < m->rows && m->t[i + 1] <= t)
         i++;
     if (t < m->t[0]) {
@@ -795,8 +867,7 @@ void sph_motion_table(void *ctx, double t, double *displacement, double *velocit
         v = (m->x[i + 1] - m->x[i]) / (m->t[i + 1] - m->t[i]);
         x = m->x[i] + v * (t - m->t[i]);
     }
-    for (int k = 0; k < SPH_DIM; k++)
-        displacement[k] = velocity[k] = 0;
     displacement[m->axis] = x - m->x[0];
     velocity[m->axis] = v;
 }
+#endif

@@ -10,15 +10,8 @@
    (4 bytes each) and of slabs. */
 #include "fluid.h"
 
-#define BLOCK 64u
-
-/* new positions (and where asked, velocities and densities) of a block of particles */
-typedef struct block {
-    sph_pos pos[SPH_DIM][BLOCK + 8];
-    sph_real vel[SPH_DIM][BLOCK + 8];
-    sph_real rho[BLOCK + 8];
-    uint8_t gone[BLOCK]; /* 1: dropped silently, 2: left the domain */
-} block;
+#define BLOCK SPH_BLOCK
+typedef sph_block block;
 
 /* the kick that a stage gives before the sweep: v' = damping (v + kick dt a), rho' = rho + rate dt drho */
 typedef struct advance {
@@ -33,8 +26,7 @@ static advance stage_advance(const sph_sim *sim)
     case SPH_ADV_KDK: return (advance){dt, dt * half, half, 0, g};
     case SPH_ADV_LEAP: /* the first step turns v^0 into v^(1/2) */
         return sim->now.started ? (advance){dt, 0, 0, 0, 1} : (advance){dt, dt * half, half, 0, 1};
-    case SPH_ADV_RK: return (advance){half, 0, half, half, 1};       /* Wickramarachchi 3.85 */
-    case SPH_ADV_RKM: return (advance){half, 0, half, half, 1};      /* 3.91: the mean of start and Euler step */
+    case SPH_ADV_RK: return (advance){half, 0, half, half, 1};       /* Wickramarachchi 3.85, and the mean of 3.91 */
     default: return (advance){0, 0, 0, 0, 1};
     }
 }
@@ -42,15 +34,19 @@ static advance stage_advance(const sph_sim *sim)
 /* puts a coordinate that left the domain back by the face's rule: 0 fine, 1 reflected, 2 left */
 static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
 {
-    const bool high = *q >= sim->extent[k];
+    const bool high = *q >= sim->grid.extent[k];
     if (*q >= 0 && !high)
         return 0;
-    switch (sim->cfg.face[k][high]) {
-    case SPH_PERIODIC: *q += high ? -sim->extent[k] : sim->extent[k]; return 0;
-    case SPH_SYMMETRY:
-    case SPH_MIRROR_NO_SLIP: *q = high ? 2 * sim->extent[k] - 1 - *q : -*q; return 1;
-    default: return 2;
-    }
+    const uint32_t face = sim->cfg.face[k][high];
+    if (SPH_IS(face, PERIODIC))
+        *q += high ? -sim->grid.extent[k] : sim->grid.extent[k];
+    else if (SPH_IS(face, SYMMETRY) || SPH_IS(face, MIRROR_NO_SLIP))
+        *q = high ? 2 * sim->grid.extent[k] - 1 - *q : -*q;
+    else
+        return 2;
+    /* a move of a whole domain may end a quantum outside again */
+    *q = *q < 0 ? 0 : *q < sim->grid.extent[k] ? *q : sim->grid.extent[k] - 1;
+    return SPH_IS(face, PERIODIC) ? 0 : 1;
 }
 
 /* the same for a particle; reflections turn the velocity */
@@ -70,11 +66,11 @@ int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v)
 static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_t n, block *o, uint32_t at, bool all)
 {
     const sph_buffer *b = &sim->buf[sim->src];
-    const vreal inv = v_set((sph_real)(1 / sim->quantum)), half = v_set((sph_real)0.5);
+    const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), half = v_set((sph_real)0.5);
     vint bad = v_set_int(0);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         /* no further than a cell, and never so far that the integer overflows */
-        const vreal far = v_set((sph_real)sim->cell_size[k]);
+        const vreal far = v_set((sph_real)sim->grid.cell_size[k]);
         const bool xsph = b->xsph[k] != NULL;
         for (uint32_t j = 0; j < n; j += SPH_W) {
             const vreal v = v_load(b->vel[k] + i + j), f = v_load(b->acc[k] + i + j);
@@ -84,7 +80,7 @@ static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_
             const vreal safe = v_where(ok, d);
             const vint step = v_to_int(safe + v_select(v_less(safe, v_set(0)), -half, half));
             const vint q = v_load_int(b->pos[k] + i + j) + step;
-            vint wrong = ~ok | v_less_int(q, v_set_int(0)) | ~v_less_int(q, v_set_int(sim->extent[k]));
+            vint wrong = ~ok | v_less_int(q, v_set_int(0)) | ~v_less_int(q, v_set_int(sim->grid.extent[k]));
             if (j + SPH_W > n) /* lanes behind the run's end may hold anything */
                 wrong &= v_less(v_load(sph_lane_numbers), v_set((sph_real)(n - j)));
             bad |= wrong;
@@ -103,22 +99,29 @@ static bool move_fluid(const sph_sim *sim, const advance *a, uint32_t i, uint32_
     return any == 0;
 }
 
+/* how far a wall goes in this step, quanta */
+static int64_t wall_step(const sph_sim *sim, const sph_set *s, uint32_t k)
+{
+    return (int64_t)sph_wall_moved(sim, s, k) - sim->now.group[s->group].moved[k];
+}
+
 /* wall particles go where their group goes; their density changes only by continuity */
 static bool move_wall(const sph_sim *sim, const advance *a, const sph_set *s, uint32_t i, uint32_t n, block *o, uint32_t at)
 {
-    bool fine = !sim->next.group[s->group].removed;
+    const bool removed = sph_wall_removed(sim, s);
+    bool fine = !removed;
     const sph_buffer *b = &sim->buf[sim->src];
     /* a Runge-Kutta step has walls at the step's end in both stages: they move in the first, by the copy */
-    const sph_group_state *to = &sim->next.group[s->group], *from = &sim->now.group[s->group];
-    const bool moves = sim->src == sim->cur;
+    const bool moves = SPH_WITH_MOVING_WALLS && sim->src == sim->cur;
     for (uint32_t j = 0; j < n; j++) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {
-            o->pos[k][at + j] = b->pos[k][i + j] + (moves ? to->moved[k] - from->moved[k] : 0);
-            fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->extent[k]);
+            /* less than a domain's length (sph_move_groups), though the difference alone may not fit into a position */
+            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + (moves ? wall_step(sim, s, k) : 0));
+            fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->grid.extent[k]);
             o->vel[k][at + j] = b->vel[k][i + j];
         }
         o->rho[at + j] = s->compressible ? b->rho[0][i + j] + b->drho[0][i + j] * a->rate : b->rho[0][i + j];
-        o->gone[at + j] = to->removed ? 1 : 0;
+        o->gone[at + j] = removed;
     }
     return fine;
 }
@@ -138,22 +141,23 @@ static void mend_block(const sph_sim *sim, const advance *a, uint32_t i, uint32_
         const bool own = i + j >= own_from && i + j < own_to;
         sph_pos q[SPH_DIM];
         sph_real v[SPH_DIM];
-        double far = 0;
+        sph_real far = 0; /* the longest way, in cells */
         if (o->gone[j])
             continue;
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             q[k] = o->pos[k][j]; // NOLINT(clang-analyzer-core.uninitialized.Assign): n > 0, filled by advance_block
             v[k] = all ? o->vel[k][j] : 0; /* the count does not ask for velocities */
-            double u = (double)b->vel[k][i + j] * (double)a->drift / (sim->length[k] / sim->ncell[k]);
-            far = !(sph_abs(u) <= far) ? sph_abs(u) : far;
+            const sph_real u = b->vel[k][i + j] * a->drift / (sph_real)(sim->grid.length[k] / sim->grid.ncell[k]);
+            const sph_real way = u < 0 ? -u : u;
+            far = !(way <= far) ? way : far;
         }
         if (own && !(far < 1) && sim->set[b->set[0][i + j]].role == SPH_ROLE_FLUID)
-            face_failure(sph_finite(far) ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE, b->id[0][i + j], t, far);
+            face_failure(far - far == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE, b->id[0][i + j], t, (double)far);
         int r = sph_enforce_faces(sim, q, v);
         if (r == 2) {
             o->gone[j] = 2;
             if (own && (sim->cfg.on_leave == SPH_FAIL || sim->set[b->set[0][i + j]].role != SPH_ROLE_FLUID))
-                face_failure(SPH_OUT_OF_DOMAIN, b->id[0][i + j], t, (double)q[0] * sim->quantum);
+                face_failure(SPH_OUT_OF_DOMAIN, b->id[0][i + j], t, (double)q[0] * sim->grid.quantum);
             if (own && !all)
                 t->left++;
             continue;
@@ -182,7 +186,7 @@ static bool advance_block(const sph_sim *sim, const advance *a, uint32_t i, uint
             fine = false;
         else if (sim->set[set].role == SPH_ROLE_FLUID)
             fine &= move_fluid(sim, a, i + j, e - j, o, j, all);
-        else
+        else if (SPH_HAS_WALLS)
             fine &= move_wall(sim, a, &sim->set[set], i + j, e - j, o, j);
         j = e;
     }
@@ -203,8 +207,8 @@ typedef struct range {
 static range make_range(const sph_sim *sim, uint32_t r)
 {
     range g;
-    g.lo = (uint32_t)((uint64_t)sim->slabs * r / sim->ranges);
-    g.hi = (uint32_t)((uint64_t)sim->slabs * (r + 1) / sim->ranges);
+    g.lo = (uint32_t)((uint64_t)sim->grid.slabs * r / sim->ranges);
+    g.hi = (uint32_t)((uint64_t)sim->grid.slabs * (r + 1) / sim->ranges);
     g.pieces = 1;
     if (!sim->src_table) {
         g.from[0] = g.own_from = 0;
@@ -214,12 +218,12 @@ static range make_range(const sph_sim *sim, uint32_t r)
     g.own_from = sim->slab[g.lo];
     g.own_to = sim->slab[g.hi];
     g.from[0] = sim->slab[g.lo > 0 ? g.lo - 1 : 0];
-    g.to[0] = sim->slab[g.hi < sim->slabs ? g.hi + 1 : sim->slabs];
-    if (sim->ranges > 1 && sim->cfg.face[SPH_DIM - 1][0] == SPH_PERIODIC) {
+    g.to[0] = sim->slab[g.hi < sim->grid.slabs ? g.hi + 1 : sim->grid.slabs];
+    if (sim->ranges > 1 && SPH_IS(sim->cfg.face[SPH_DIM - 1][0], PERIODIC)) {
         if (g.lo == 0) { /* the last slab is a neighbour too */
-            g.from[g.pieces] = sim->slab[sim->slabs - 1];
-            g.to[g.pieces++] = sim->slab[sim->slabs];
-        } else if (g.hi == sim->slabs) {
+            g.from[g.pieces] = sim->slab[sim->grid.slabs - 1];
+            g.to[g.pieces++] = sim->slab[sim->grid.slabs];
+        } else if (g.hi == sim->grid.slabs) {
             g.from[1] = g.from[0];
             g.to[1] = g.to[0];
             g.from[0] = 0;
@@ -234,7 +238,7 @@ static range make_range(const sph_sim *sim, uint32_t r)
 static bool slab_too_far(const sph_sim *sim, uint32_t from, uint32_t to)
 {
     uint32_t d = from > to ? from - to : to - from;
-    return d > 1 && !(sim->cfg.face[SPH_DIM - 1][0] == SPH_PERIODIC && d == sim->slabs - 1);
+    return d > 1 && !(SPH_IS(sim->cfg.face[SPH_DIM - 1][0], PERIODIC) && d == sim->grid.slabs - 1);
 }
 
 /* where the count leaves each particle's cell for the scatter: in dst.acc, which is free until the forces */
@@ -252,9 +256,10 @@ SPH_INLINE uint32_t kept_cell(const sph_sim *sim, uint32_t i)
 #define NO_CELL 0xffffffffu
 
 /* cells of a block; NO_CELL for who is gone. The range that owns a particle also checks its way and keeps its cell. */
-static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, const block *o, bool fine, uint32_t *slab,
-                        uint32_t *cell, sph_thread *t)
+static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, bool fine, uint32_t *slab, sph_thread *t)
 {
+    const block *o = &t->block;
+    uint32_t *const cell = t->block.to;
     for (uint32_t j = 0; j < n; j++) {
         sph_pos q[SPH_DIM];
         SPH_UNROLL
@@ -274,8 +279,8 @@ static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, co
         while (*slab + 1 < g->hi && sim->slab[*slab + 1] <= p)
             ++*slab;
         /* unsigned: cells of the slab itself and its two neighbours */
-        const uint32_t low = *slab * sim->slab_cells - sim->slab_cells;
-        if (c - low >= 3 * sim->slab_cells && slab_too_far(sim, *slab, c / sim->slab_cells))
+        const uint32_t low = *slab * sim->grid.slab_cells - sim->grid.slab_cells;
+        if (c - low >= 3 * sim->grid.slab_cells && slab_too_far(sim, *slab, c / sim->grid.slab_cells))
             sph_fail_note(t, SPH_MOVED_TOO_FAR, sim->buf[sim->src].id[0][p], 2);
     }
 }
@@ -284,16 +289,15 @@ static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
 {
     const advance a = stage_advance(sim);
     const range g = make_range(sim, r);
-    const uint32_t c0 = g.lo * sim->slab_cells, c1 = g.hi * sim->slab_cells;
-    uint32_t total = 0, slab = g.lo, cell[BLOCK];
-    uint32_t *const count = sim->cell + 1;
-    block o;
+    const uint32_t c0 = g.lo * sim->grid.slab_cells, c1 = g.hi * sim->grid.slab_cells;
+    uint32_t total = 0, slab = g.lo;
+    uint32_t *const count = sim->cell + 1, *const cell = t->block.to;
     memset(count + c0, 0, (size_t)(c1 - c0) * sizeof *count);
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += BLOCK) {
             const uint32_t n = g.to[p] - i < BLOCK ? g.to[p] - i : BLOCK;
-            const bool fine = advance_block(sim, &a, i, n, &o, false, g.own_from, g.own_to, t);
-            block_cells(sim, &g, i, n, &o, fine, &slab, cell, t);
+            const bool fine = advance_block(sim, &a, i, n, &t->block, false, g.own_from, g.own_to, t);
+            block_cells(sim, &g, i, n, fine, &slab, t);
             for (uint32_t j = 0; j < n; j++)
                 if (cell[j] - c0 < c1 - c0) {
                     count[cell[j]]++;
@@ -301,6 +305,7 @@ static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
                 }
             t->work += n;
         }
+    t->work += c1 - c0;
     sim->range_count[r] = total;
 }
 
@@ -348,12 +353,11 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
 {
     const advance a = stage_advance(sim);
     const range g = make_range(sim, r);
-    const uint32_t c0 = g.lo * sim->slab_cells, c1 = g.hi * sim->slab_cells;
+    const uint32_t c0 = g.lo * sim->grid.slab_cells, c1 = g.hi * sim->grid.slab_cells;
     const sph_buffer *b = &sim->buf[sim->dst];
     uint32_t *const cell = sim->cell, run = sim->range_count[r];
     const uint8_t *set = sim->buf[sim->src].set[0];
-    uint32_t first = run;
-    block o;
+    uint32_t first = run, *const at = t->block.to;
     for (uint32_t c = c0; c < c1; c++) { /* counts become starts; filling turns them into the next cell's start */
         uint32_t n = cell[c + 1];
         cell[c + 1] = first;
@@ -362,7 +366,7 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += BLOCK) {
             const uint32_t n = g.to[p] - i < BLOCK ? g.to[p] - i : BLOCK;
-            uint32_t at[BLOCK], mine = 0;
+            uint32_t mine = 0;
             for (uint32_t j = 0; j < n; j++) {
                 const uint32_t c = kept_cell(sim, i + j);
                 at[j] = c - c0 < c1 - c0 ? cell[c + 1]++ : NO_CELL;
@@ -371,14 +375,14 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
             t->work += n;
             if (mine == 0)
                 continue;
-            advance_block(sim, &a, i, n, &o, true, 0, 0, t);
+            advance_block(sim, &a, i, n, &t->block, true, 0, 0, t);
             for (uint32_t j = 0; j < n;) { /* runs of particles that stay next to each other are copied as one */
                 uint32_t e = j + 1;
                 /* NO_CELL + 1 is 0, which is a place: who stays behind ends a run and begins none */
                 while (e < n && at[j] != NO_CELL && at[e] == at[e - 1] + 1)
                     e++;
                 if (at[j] != NO_CELL)
-                    put_run(b, &o, set + i, i, j, e - j, at[j]);
+                    put_run(b, &t->block, set + i, i, j, e - j, at[j]);
                 j = e;
             }
         }
@@ -389,6 +393,7 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
         order_cell(sim, start, end);
         start = end;
     }
+    t->work += c1 - c0;
     t->widest = widest > t->widest ? widest : t->widest;
 }
 
@@ -421,9 +426,9 @@ void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bo
     sim->mode = mode;
     sim->ranges = 1;
     if (table) {
-        for (uint32_t s = 0; s <= sim->slabs; s++)
-            sim->slab[s] = sim->cell[(size_t)s * sim->slab_cells];
-        uint32_t r = sim->slabs / 4;
+        for (uint32_t s = 0; s <= sim->grid.slabs; s++)
+            sim->slab[s] = sim->cell[(size_t)s * sim->grid.slab_cells];
+        uint32_t r = sim->grid.slabs / (sim->chunk_cells == SPH_SLICE_CHUNK ? 2 : 4);
         sim->ranges = r < 1 ? 1 : r > SPH_MAX_RANGES ? SPH_MAX_RANGES : r;
     }
     sim->table_valid = false; /* from here on cell[] is being rebuilt */

@@ -24,12 +24,9 @@
 
 /* ---- 1 build knobs ---------------------------------------------------------------------------------
    SPH_DIM 1, 2, 3 and SPH_DOUBLE 0, 1 must be the same for the library and its users (see name.h: a
-   mismatch does not link). The knobs below leave code out; they change no type. */
+   mismatch does not link). The knobs SPH_WITH_... of modules.h leave code out; they change no type. */
+#include "modules.h"
 #include "name.h"
-
-#ifndef SPH_WITH_FAST_PATHS
-#define SPH_WITH_FAST_PATHS 1 /* inner loops compiled apart for common choices: same bits, more code */
-#endif
 
 #if SPH_DOUBLE
 typedef double sph_real;
@@ -42,7 +39,13 @@ typedef float sph_real;
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
 /* ---- 2 status --------------------------------------------------------------------------------------
-   Every function that can fail returns one of these; sph_last() tells more about the latest failure. */
+   Every function that can fail returns one of these; sph_last() tells more about the latest failure. A call that fails
+   changes nothing but that report (sph_step may have made the first forces, as sph_ready does), and writes to none of its
+   results.
+   Null pointers: a function that returns a status refuses them with SPH_BAD_ARGUMENT where the manual does not allow them,
+   the simulation included (a null configuration is SPH_BAD_CONFIG, a null arena SPH_ARENA_TOO_SMALL); one that returns
+   nothing does nothing; sph_arena_bytes, sph_count, sph_time and sph_hash give 0, sph_last a constant report. Pointers that
+   are not null must be good, and a simulation must come from sph_init: that cannot be seen from inside. */
 #define SPH_STATUS_LIST(X)                                                                             \
     X(OK, "ok")                                                                                        \
     X(NOT_DONE, "the slice's budget is spent; call sph_step_slice again to finish the step")           \
@@ -172,7 +175,7 @@ typedef void (*sph_stage_log)(void *ctx, uint64_t step, const char *pass, uint64
    each chunk in 0..chunks-1, in any order, thread < threads being different for calls that run at once. */
 typedef struct sph_port {
     void *ctx;
-    uint32_t threads; /* how many `parallel` uses at most; 0 or 1: serial */
+    uint32_t threads; /* how many `parallel` uses at most, not above max_threads; 0 or 1: serial */
     void (*parallel)(void *ctx, void (*fn)(void *arg, uint32_t chunk, uint32_t thread), void *arg, uint32_t chunks);
     uint64_t (*clock)(void *ctx);                         /* nanoseconds, monotonic; never used for physics */
     void (*fault)(void *ctx, const sph_report *report);   /* told of every failure, before it is returned */
@@ -184,9 +187,10 @@ typedef struct sph_config {
     /* capacity */
     uint32_t max_particles; /* fluid and wall particles together, 1 .. 2^30 */
     uint32_t max_threads;   /* scratch for so many threads, 1 .. 256 */
+    uint32_t max_sets;      /* particle sets, 1 .. SPH_MAX_SETS (the default) */
 
     /* domain: a box that holds everything, walls included (m) */
-    double lo[SPH_DIM], hi[SPH_DIM];
+    double lo[SPH_DIM], hi[SPH_DIM]; /* at least one spacing along every axis */
     uint32_t face[SPH_DIM][2]; /* SPH_OPEN ... for the low and high face of each axis */
     uint32_t on_leave;         /* SPH_FAIL, SPH_REMOVE */
     uint32_t on_cross;         /* SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE */
@@ -319,7 +323,8 @@ sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const d
 
 /* Lattices of the configured spacing: particle centres half a spacing inside the shape's low corner.
    A box; a ball (disc in 2-D); a ring (shell) between two radii; a polygon of n corners (2-D, even-odd rule).
-   v (null: at rest) is given to all. All or nothing: on failure no particle was added. */
+   v (null: at rest) is given to all. All or nothing: on failure no particle was added. A shape begins and ends within a
+   domain's length of the domain: every point of its lattice is looked at. */
 #define sph_add_box SPH_NAME(add_box)
 sph_status sph_add_box(sph_sim *sim, uint32_t set, const double *lo, const double *hi, const double *v);
 #define sph_add_ring SPH_NAME(add_ring)
@@ -329,13 +334,13 @@ sph_status sph_add_ring(sph_sim *sim, uint32_t set, const double *centre, double
 sph_status sph_add_polygon(sph_sim *sim, uint32_t set, const double (*corner)[2], uint32_t n, const double *v);
 #endif
 
-/* Sets velocity and density of a particle between steps by a function of its position: an initial field. */
+/* Sets velocity and density of a particle between steps by a function of its position: an initial field. All or nothing. */
 typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho);
 #define sph_apply_field SPH_NAME(apply_field)
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx);
 
 /* Gives every particle of the set the density that hydrostatic pressure asks for below `surface` (m, along the
-   axis of gravity, which must be an axis), so that a tank starts in balance. */
+   axis of gravity, which must be an axis), so that a tank starts in balance. Refused where a density would pass 100 rho0. */
 #define sph_apply_hydrostatic SPH_NAME(apply_hydrostatic)
 sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface);
 
@@ -353,11 +358,13 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface);
                      (Adami, Hu & Adams 2012) */
 enum { SPH_WALL_LENNARD_JONES, SPH_WALL_KERNEL_FORCE, SPH_WALL_MONAGHAN_KOS, SPH_WALL_GHOST, SPH_WALL_ADAMI, SPH_WALLS };
 
-/* Displacement (m) and velocity (m/s) of a moving wall at time t (s); must depend on its arguments only. */
+/* Displacement (m) and velocity (m/s) of a moving wall at time t (s); must depend on its arguments only. Finite, within two
+   domain lengths, and less than one from step to step; otherwise the step fails (NOT_FINITE, MOVED_TOO_FAR). */
 typedef void (*sph_motion)(void *ctx, double t, double *displacement, double *velocity);
 
 /* A motion given as a table, linear between rows; before the first and after the last row the wall rests. Pass
-   sph_motion_table as the motion and a pointer to this as its ctx. Times must increase. */
+   sph_motion_table as the motion and a pointer to this as its ctx. Times must increase. Without rows, or with an axis that
+   there is not, the wall rests. */
 typedef struct sph_table {
     uint32_t rows, axis;
     const double *t, *x; /* s, m */
@@ -419,13 +426,17 @@ sph_status sph_step(sph_sim *sim);
 #define sph_step_to SPH_NAME(step_to)
 sph_status sph_step_to(sph_sim *sim, double t_end);
 
-/* Part of a step: does chunks until about `budget` work units are spent (one unit: one candidate pair, or one particle
-   in a local pass), then returns SPH_NOT_DONE; SPH_OK when the step is complete. Until then the state that can be
-   read is that of the step's beginning. With n particles and at most c in a cell, the last chunks (one a thread) may pass
-   the budget by at most threads * max(32 (3^DIM c^2 + 1), n): 32 cells of a sweep, or a range of the sort, which is all
-   particles in the worst case. A whole step is at most E (3^DIM c n + cells + 32) + 16 n units; E counts its sweeps: 1 for
-   the forces (2 for all integrators but the predictor-corrector), as many again with Adami walls, 1 each for the Shepard
-   filter and summation (2 with Runge-Kutta). Passes without chunks (starting a sort, walls that move) are not counted. */
+/* Part of a step: does chunks until about `budget` work units are spent (one unit: one candidate pair, one particle in a local
+   pass or looked at by a sort, one cell), then returns SPH_NOT_DONE; SPH_OK when the step is complete. Until then the state
+   that can be read is that of the step's beginning. With n particles, at most c in a cell and at most s in a slab (a layer of
+   cells along the last axis) of b cells:
+     a slice    at most budget + threads * max(3^DIM c^2 + 1, (k + 2) s + k b, 256) units, k = max(3, slabs/64 rounded up): the
+                last chunks, one a thread, may pass the budget, and a chunk is a cell of a sweep, k slabs of a sort, or 256
+                particles. The first sort of all has one chunk of n + cells units: sph_ready does it beforehand.
+     a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2 for all
+                integrators but the predictor-corrector), as many again with Adami walls, 1 each for the Shepard filter and
+                summation (2 with Runge-Kutta).
+   Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
 /* Both bounds as numbers: what the last chunks may add to a budget, and a whole step of `sweeps` (E) sweeps. */
@@ -501,7 +512,7 @@ sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out);
 #define sph_probe_line SPH_NAME(probe_line)
 sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, uint32_t n, sph_probe_value *out);
 /* Height of the water along `axis` through x: the highest place where cover passes 1/2; the domain's low end if
-   there is no water. x[axis] is ignored. */
+   there is no water. x[axis] does not matter, but must be finite like the others. */
 #define sph_gauge SPH_NAME(gauge)
 sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height);
 /* Largest and smallest coordinate of the fluid along an axis, by particle centres. */

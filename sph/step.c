@@ -31,19 +31,27 @@ static sph_status first_stage(sph_sim *sim, uint32_t mode)
     return SPH_OK;
 }
 static sph_status begin_copy(sph_sim *sim) { return first_stage(sim, SPH_ADV_COPY); }
+static const sph_pass pass_begin_copy = {"begin", NULL, NULL, begin_copy, NULL};
+#if SPH_WITH_PREDICTOR_CORRECTOR
 static sph_status begin_pc(sph_sim *sim) { return first_stage(sim, SPH_ADV_PC); }
+static const sph_pass pass_begin_pc = {"begin", NULL, NULL, begin_pc, NULL};
+#endif
+#if SPH_WITH_KICK_DRIFT_KICK
 static sph_status begin_kdk(sph_sim *sim) { return first_stage(sim, SPH_ADV_KDK); }
+static const sph_pass pass_begin_kdk = {"begin", NULL, NULL, begin_kdk, NULL};
+#endif
+#if SPH_WITH_LEAP_FROG
 static sph_status begin_leap(sph_sim *sim) { return first_stage(sim, SPH_ADV_LEAP); }
+static const sph_pass pass_begin_leap = {"begin", NULL, NULL, begin_leap, NULL};
+#endif
+#if SPH_HAS_RUNGE_KUTTA
 static sph_status begin_rk(sph_sim *sim)
 {
     sph_begin_sort(sim, sim->dst, spare(sim, sim->cur, sim->dst), sim->next.count, true, SPH_ADV_RK);
     return SPH_OK;
 }
-static const sph_pass pass_begin_copy = {"begin", NULL, NULL, begin_copy, NULL};
-static const sph_pass pass_begin_pc = {"begin", NULL, NULL, begin_pc, NULL};
-static const sph_pass pass_begin_kdk = {"begin", NULL, NULL, begin_kdk, NULL};
-static const sph_pass pass_begin_leap = {"begin", NULL, NULL, begin_leap, NULL};
 static const sph_pass pass_begin_rk = {"begin second stage", NULL, NULL, begin_rk, NULL};
+#endif
 
 /* ---- local passes: what is done to each particle after the sums ---- */
 
@@ -72,12 +80,12 @@ static void settle(const sph_sim *sim, span s)
         const size_t bytes = (e - i) * sizeof(sph_real);
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             memset(b->acc[k] + i, 0, bytes);
-            if (b->xsph[k])
+            if (SPH_WITH_XSPH && b->xsph[k])
                 memset(b->xsph[k] + i, 0, bytes);
         }
         if (!sim->set[b->set[0][i]].compressible)
             memset(b->drho[0] + i, 0, bytes);
-        for (uint32_t k = 0; sim->cfg.books && k < SPH_POWERS; k++)
+        for (uint32_t k = 0; sph_keeps_books(&sim->cfg) && k < SPH_POWERS; k++)
             memset(sim->power[k] + i, 0, bytes);
     }
 }
@@ -93,8 +101,8 @@ static void settle_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 static void check_span(sph_sim *sim, span s, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    vint wrong = v_set_int(0);
-    for (uint32_t i = s.first; i < s.last; i += SPH_W) {
+    vint wrong = v_set_int(SPH_SCALAR); /* without vectors the second loop does it all */
+    for (uint32_t i = s.first; !SPH_SCALAR && i < s.last; i += SPH_W) {
         const vreal d = v_load(b->rho[0] + i);
         vreal v2 = v_set(0);
         SPH_UNROLL
@@ -119,6 +127,7 @@ static void check_span(sph_sim *sim, span s, sph_thread *t)
     }
 }
 
+#if SPH_WITH_BOOKS
 /* sums of powers for the books: one row a chunk, added up in order of chunks afterwards */
 static void sum_powers(sph_sim *sim, uint32_t chunk, span s)
 {
@@ -136,139 +145,6 @@ static void sum_powers(sph_sim *sim, uint32_t chunk, span s)
     }
     for (uint32_t k = 0; k < SPH_POWERS; k++)
         sim->partial[chunk * SPH_POWERS + k] = sum[k];
-}
-
-static void finish_span(sph_sim *sim, uint32_t chunk, span s, sph_thread *t)
-{
-    settle(sim, s);
-    sph_cross_walls(sim, s.first, s.last, t);
-    check_span(sim, s, t);
-    if (sim->cfg.books)
-        sum_powers(sim, chunk, s);
-    t->work += s.last - s.first;
-}
-
-/* v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28, 2.29);
-   kick-drift-kick: v = damping (v_h + dt/2 a), and the density has had its whole step already */
-SPH_INLINE void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
-{
-    const span s = chunk_span(sim, chunk);
-    const sph_buffer b = sim->buf[sim->dst], o = sim->buf[sim->src];
-    const sph_real half = (sph_real)sim->dt * (sph_real)0.5, g = (sph_real)sim->cfg.damping;
-    for (uint32_t i = s.first; i < s.last;) {
-        const uint32_t e = sph_run_end(b.set[0], i, s.last);
-        const sph_set *set = &sim->set[b.set[0][i]];
-        const bool fluid = set->role == SPH_ROLE_FLUID;
-        for (uint32_t j = i; j < e && !kdk && (fluid || set->compressible); j++)
-            b.rho[0][j] = b.rho[0][j] + half * (b.drho[0][j] - o.drho[0][b.id[0][j]]);
-        SPH_UNROLL
-        for (uint32_t k = 0; k < SPH_DIM; k++)
-            for (uint32_t j = i; j < e && fluid; j++) {
-                const sph_real a = kdk ? b.acc[k][j] : b.acc[k][j] - o.acc[k][b.id[0][j]];
-                b.vel[k][j] = g * (b.vel[k][j] + half * a);
-            }
-        i = e;
-    }
-    finish_span(sim, chunk, s, t);
-}
-static void correct_pc_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, false); }
-static void correct_kdk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, true); }
-
-/* Leap-frog (Powell 2012 algorithm 1.1) and kick-drift-kick: the density goes a whole step with the rates of the half-step
-   velocity at the new positions, like a position; then come the forces. (Taking the rates of the velocity at the ends,
-   with one sweep, makes sound waves grow.) */
-static void leap_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
-{
-    const span s = chunk_span(sim, chunk);
-    const sph_buffer *b = &sim->buf[sim->dst];
-    for (uint32_t i = s.first; i < s.last; i++) {
-        const sph_set *set = &sim->set[b->set[0][i]];
-        if (set->role == SPH_ROLE_FLUID || set->compressible)
-            b->rho[0][i] += (sph_real)sim->dt * b->drho[0][i];
-    }
-    t->work += s.last - s.first;
-}
-/* then the velocity a whole step with the new acceleration */
-static void leap_velocity_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
-{
-    const span s = chunk_span(sim, chunk);
-    const sph_buffer *b = &sim->buf[sim->dst];
-    const sph_real dt = (sph_real)sim->dt, g = (sph_real)sim->cfg.damping;
-    for (uint32_t i = s.first; i < s.last; i++)
-        if (sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
-            for (uint32_t k = 0; k < SPH_DIM; k++)
-                b->vel[k][i] = g * (b->vel[k][i] + dt * b->acc[k][i]);
-    finish_span(sim, chunk, s, t);
-}
-
-/* x moves by d (m); the faces' rules apply as in the sort */
-static void place(sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
-{
-    const sph_buffer *b = &sim->buf[sim->dst];
-    sph_pos q[SPH_DIM];
-    sph_real v[SPH_DIM];
-    bool near = true;
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        double s = d[k] / sim->quantum;
-        near &= sph_abs(d[k]) < sim->length[k] / sim->ncell[k];
-        q[k] = from[k] + (sph_pos)(near ? s < 0 ? s - 0.5 : s + 0.5 : 0);
-        v[k] = b->vel[k][i];
-    }
-    if (!near)
-        sph_fail_note(t, d[0] - d[0] == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE,
-                      sim->buf[sim->src].id[0][b->id[0][i]], d[0]);
-    int r = sph_enforce_faces(sim, q, v);
-    if (r == 2) {
-        t->left++;
-        if (sim->cfg.on_leave == SPH_FAIL)
-            sph_fail_note(t, SPH_OUT_OF_DOMAIN, sim->buf[sim->src].id[0][b->id[0][i]], (double)q[0] * sim->quantum);
-        else
-            b->set[0][i] = SPH_DEAD;
-        return;
-    }
-    t->reflected += r == 1;
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        b->pos[k][i] = q[k];
-        b->vel[k][i] = v[k];
-    }
-}
-
-/* the second halves of the Runge-Kutta forms, as printed: 3.86-3.87, and 3.92 */
-static void rk_particle(sph_sim *sim, uint32_t i, sph_thread *t)
-{
-    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
-    const bool momentum = sim->cfg.integrator == SPH_RUNGE_KUTTA_MOMENTUM;
-    const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5;
-    const uint32_t p = b->id[0][i];
-    const sph_set *set = &sim->set[b->set[0][i]];
-    if (set->role == SPH_ROLE_FLUID || set->compressible) {
-        const sph_real r = o->rho[0][p], d = b->drho[0][i];
-        const sph_real mid = r + half * d;
-        b->rho[0][i] = momentum ? r + dt * d : 2 * mid - r;
-    }
-    if (set->role != SPH_ROLE_FLUID)
-        return;
-    double move[SPH_DIM];
-    sph_pos from[SPH_DIM];
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        const sph_real v = o->vel[k][p], half_v = v + half * o->acc[k][p];
-        /* a mirror face that turned the velocity at half time turned the frame of the forces there: turn it back */
-        const sph_real turn = b->vel[k][i] == half_v ? 1 : -1;
-        const sph_real a = turn * b->acc[k][i], x = b->xsph[k] ? turn * b->xsph[k][i] : 0;
-        const sph_real mid = v + half * a;
-        const sph_real u = momentum ? (sph_real)0.5 * ((v + dt * o->acc[k][p]) + v) : half_v;
-        move[k] = (double)dt * (double)(u + x);
-        from[k] = o->pos[k][p];
-        b->vel[k][i] = (sph_real)sim->cfg.damping * (momentum ? v + dt * a : 2 * mid - v);
-    }
-    place(sim, i, move, from, t);
-}
-static void rk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
-{
-    const span s = chunk_span(sim, chunk);
-    for (uint32_t i = s.first; i < s.last; i++)
-        rk_particle(sim, i, t);
-    finish_span(sim, chunk, s, t);
 }
 
 /* books: powers integrate by the trapezoidal rule */
@@ -293,36 +169,241 @@ static sph_status prime_books(sph_sim *sim)
     memcpy(sim->next.work, keep, sizeof keep);
     return st;
 }
-static void prime_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+#else
+#define add_books NULL
+#define prime_books NULL
+#endif
+
+static void finish_span(sph_sim *sim, uint32_t chunk, span s, sph_thread *t)
 {
-    settle_chunk(sim, chunk, t);
+    settle(sim, s);
+#if SPH_HAS_WALLS
+    sph_cross_walls(sim, s.first, s.last, t);
+#endif
+    check_span(sim, s, t);
+#if SPH_WITH_BOOKS
     if (sim->cfg.books)
-        sum_powers(sim, chunk, chunk_span(sim, chunk));
+        sum_powers(sim, chunk, s);
+#endif
+    (void)chunk;
+    t->work += s.last - s.first;
+}
+
+#if SPH_WITH_PREDICTOR_CORRECTOR || SPH_WITH_KICK_DRIFT_KICK
+
+/* v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28, 2.29);
+   kick-drift-kick: v = damping (v_h + dt/2 a), and the density has had its whole step already */
+SPH_INLINE void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
+{
+    const span s = chunk_span(sim, chunk);
+    const sph_buffer b = sim->buf[sim->dst], o = sim->buf[sim->src];
+    const sph_real half = (sph_real)sim->dt * (sph_real)0.5, g = (sph_real)sim->cfg.damping;
+    for (uint32_t i = s.first; i < s.last;) {
+        const uint32_t e = sph_run_end(b.set[0], i, s.last);
+        const sph_set *set = &sim->set[b.set[0][i]];
+        const bool fluid = set->role == SPH_ROLE_FLUID;
+        for (uint32_t j = i; j < e && !kdk && (fluid || set->compressible); j++)
+            b.rho[0][j] = b.rho[0][j] + half * (b.drho[0][j] - o.drho[0][b.id[0][j]]);
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            for (uint32_t j = i; j < e && fluid; j++) {
+                const sph_real a = kdk ? b.acc[k][j] : b.acc[k][j] - o.acc[k][b.id[0][j]];
+                b.vel[k][j] = g * (b.vel[k][j] + half * a);
+            }
+        i = e;
+    }
+    finish_span(sim, chunk, s, t);
+}
+#endif
+#if SPH_WITH_PREDICTOR_CORRECTOR
+static void correct_pc_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, false); }
+static const sph_pass pass_correct_pc = {"correct", sph_local_chunks, correct_pc_chunk, add_books, NULL};
+#endif
+#if SPH_WITH_KICK_DRIFT_KICK
+static void correct_kdk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t) { correct(sim, chunk, t, true); }
+static const sph_pass pass_correct_kdk = {"kick", sph_local_chunks, correct_kdk_chunk, add_books, NULL};
+#endif
+
+#if SPH_HAS_RATES_FIRST
+/* Leap-frog (Powell 2012 algorithm 1.1) and kick-drift-kick: the density goes a whole step with the rates of the half-step
+   velocity at the new positions, like a position; then come the forces. (Taking the rates of the velocity at the ends,
+   with one sweep, makes sound waves grow.) */
+static void leap_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const span s = chunk_span(sim, chunk);
+    const sph_buffer *b = &sim->buf[sim->dst];
+    for (uint32_t i = s.first; i < s.last; i++) {
+        const sph_set *set = &sim->set[b->set[0][i]];
+        if (set->role == SPH_ROLE_FLUID || set->compressible)
+            b->rho[0][i] += (sph_real)sim->dt * b->drho[0][i];
+    }
+    t->work += s.last - s.first;
+}
+static const sph_pass pass_leap_density = {"density", sph_local_chunks, leap_density_chunk, NULL, NULL};
+#endif
+#if SPH_WITH_LEAP_FROG
+/* then the velocity a whole step with the new acceleration */
+static void leap_velocity_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const span s = chunk_span(sim, chunk);
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const sph_real dt = (sph_real)sim->dt, g = (sph_real)sim->cfg.damping;
+    for (uint32_t i = s.first; i < s.last; i++)
+        if (sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
+            for (uint32_t k = 0; k < SPH_DIM; k++)
+                b->vel[k][i] = g * (b->vel[k][i] + dt * b->acc[k][i]);
+    finish_span(sim, chunk, s, t);
+}
+
+static const sph_pass pass_leap_velocity = {"velocity", sph_local_chunks, leap_velocity_chunk, add_books, NULL};
+#endif
+
+#if SPH_HAS_RUNGE_KUTTA
+/* x moves by d (m); the faces' rules apply as in the sort */
+static void place(sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    sph_pos q[SPH_DIM];
+    sph_real v[SPH_DIM];
+    bool near = true;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        double s = d[k] / sim->grid.quantum;
+        near &= sph_abs(d[k]) < sim->grid.length[k] / sim->grid.ncell[k];
+        q[k] = from[k] + (sph_pos)(near ? s < 0 ? s - 0.5 : s + 0.5 : 0);
+        v[k] = b->vel[k][i];
+    }
+    if (!near)
+        sph_fail_note(t, d[0] - d[0] == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE,
+                      sim->buf[sim->src].id[0][b->id[0][i]], d[0]);
+    int r = sph_enforce_faces(sim, q, v);
+    if (r == 2) {
+        t->left++;
+        if (sim->cfg.on_leave == SPH_FAIL)
+            sph_fail_note(t, SPH_OUT_OF_DOMAIN, sim->buf[sim->src].id[0][b->id[0][i]], (double)q[0] * sim->grid.quantum);
+        else
+            b->set[0][i] = SPH_DEAD;
+        return;
+    }
+    t->reflected += r == 1;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        b->pos[k][i] = q[k];
+        b->vel[k][i] = v[k];
+    }
+}
+
+/* the second halves of the Runge-Kutta forms, as printed: 3.86-3.87, and 3.92 */
+static void rk_particle(sph_sim *sim, uint32_t i, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const bool momentum = SPH_IS(sim->cfg.integrator, RUNGE_KUTTA_MOMENTUM);
+    const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5;
+    const uint32_t p = b->id[0][i];
+    const sph_set *set = &sim->set[b->set[0][i]];
+    if (set->role == SPH_ROLE_FLUID || set->compressible) {
+        const sph_real r = o->rho[0][p], d = b->drho[0][i];
+        const sph_real mid = r + half * d;
+        b->rho[0][i] = momentum ? r + dt * d : 2 * mid - r;
+    }
+    if (set->role != SPH_ROLE_FLUID)
+        return;
+    double move[SPH_DIM];
+    sph_pos from[SPH_DIM];
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const sph_real v = o->vel[k][p], half_v = v + half * o->acc[k][p];
+        /* a mirror face that turned the velocity at half time turned the frame of the forces there: turn it back */
+        const sph_real turn = b->vel[k][i] == half_v ? 1 : -1;
+        const sph_real a = turn * b->acc[k][i], x = SPH_WITH_XSPH && b->xsph[k] ? turn * b->xsph[k][i] : 0;
+        const sph_real mid = v + half * a;
+        const sph_real u = momentum ? (sph_real)0.5 * ((v + dt * o->acc[k][p]) + v) : half_v;
+        move[k] = (double)dt * (double)(u + x);
+        from[k] = o->pos[k][p];
+        b->vel[k][i] = (sph_real)sim->cfg.damping * (momentum ? v + dt * a : 2 * mid - v);
+    }
+    place(sim, i, move, from, t);
+}
+static void rk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const span s = chunk_span(sim, chunk);
+    for (uint32_t i = s.first; i < s.last; i++)
+        rk_particle(sim, i, t);
+    finish_span(sim, chunk, s, t);
 }
 
 static const sph_pass pass_settle = {"settle", sph_local_chunks, settle_chunk, NULL, NULL};
-static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, prime_books, NULL};
-static const sph_pass pass_correct_pc = {"correct", sph_local_chunks, correct_pc_chunk, add_books, NULL};
-static const sph_pass pass_correct_kdk = {"kick", sph_local_chunks, correct_kdk_chunk, add_books, NULL};
-static const sph_pass pass_leap_density = {"density", sph_local_chunks, leap_density_chunk, NULL, NULL};
-static const sph_pass pass_leap_velocity = {"velocity", sph_local_chunks, leap_velocity_chunk, add_books, NULL};
 static const sph_pass pass_rk = {"advance", sph_local_chunks, rk_chunk, add_books, NULL};
+#endif
+
+static void prime_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    settle_chunk(sim, chunk, t);
+#if SPH_WITH_BOOKS
+    if (sim->cfg.books)
+        sum_powers(sim, chunk, chunk_span(sim, chunk));
+#endif
+}
+static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, prime_books, NULL};
 
 /* ---- the one list of passes: what each integrator does, in order ---- */
 
-#define SORT &sph_pass_count, &sph_pass_scatter
-#define FILTER &sph_pass_shepard, &sph_pass_summation, &sph_pass_copy_density
-#define FORCES &sph_pass_adami, &sph_pass_adami_copy, &sph_pass_force
-static const sph_pass *const prime_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_prime, NULL};
-static const sph_pass *const pc_program[] = {&pass_begin_pc, SORT, FILTER, FORCES, &pass_correct_pc, NULL};
-static const sph_pass *const kdk_program[] = {&pass_begin_kdk, SORT, FORCES, &pass_leap_density, FILTER,
-                                              FORCES, &pass_correct_kdk, NULL};
-static const sph_pass *const leap_program[] = {&pass_begin_leap, SORT, FORCES, &pass_leap_density, FILTER,
-                                               FORCES, &pass_leap_velocity, NULL};
-static const sph_pass *const rk_program[] = {&pass_begin_copy, SORT, FILTER, FORCES, &pass_settle,
-                                             &pass_begin_rk, SORT, FILTER, FORCES, &pass_rk, NULL};
-static const sph_pass *const *const programs[SPH_INTEGRATORS] = {pc_program, kdk_program, leap_program, rk_program,
-                                                                 rk_program};
+#if SPH_WITH_SHEPARD
+#define SHEPARD &sph_pass_shepard,
+#else
+#define SHEPARD
+#endif
+#if SPH_WITH_SUMMATION
+#define SUMMATION &sph_pass_summation,
+#else
+#define SUMMATION
+#endif
+#if SPH_HAS_FILTERS
+#define FILTER SHEPARD SUMMATION &sph_pass_copy_density,
+#else
+#define FILTER
+#endif
+#if SPH_WITH_WALL_ADAMI
+#define ADAMI &sph_pass_adami, &sph_pass_adami_copy,
+#else
+#define ADAMI
+#endif
+#define SORT &sph_pass_count, &sph_pass_scatter,
+#define FORCES ADAMI &sph_pass_force,
+
+typedef const sph_pass *const program[];
+static program prime_program = {&pass_begin_copy, SORT FILTER FORCES &pass_prime, NULL};
+#if SPH_WITH_PREDICTOR_CORRECTOR
+static program pc_program = {&pass_begin_pc, SORT FILTER FORCES &pass_correct_pc, NULL};
+#endif
+#if SPH_WITH_KICK_DRIFT_KICK
+static program kdk_program = {&pass_begin_kdk, SORT FORCES &pass_leap_density, FILTER FORCES &pass_correct_kdk, NULL};
+#endif
+#if SPH_WITH_LEAP_FROG
+static program leap_program = {&pass_begin_leap, SORT FORCES &pass_leap_density, FILTER FORCES &pass_leap_velocity, NULL};
+#endif
+#if SPH_HAS_RUNGE_KUTTA
+static program rk_program = {&pass_begin_copy, SORT FILTER FORCES &pass_settle,
+                             &pass_begin_rk,   SORT FILTER FORCES &pass_rk, NULL};
+#endif
+
+static const sph_pass *const *program_of(uint32_t integrator)
+{
+#if SPH_WITH_PREDICTOR_CORRECTOR
+    if (integrator == SPH_PREDICTOR_CORRECTOR)
+        return pc_program;
+#endif
+#if SPH_WITH_KICK_DRIFT_KICK
+    if (integrator == SPH_KICK_DRIFT_KICK)
+        return kdk_program;
+#endif
+#if SPH_WITH_LEAP_FROG
+    if (integrator == SPH_LEAP_FROG)
+        return leap_program;
+#endif
+#if SPH_HAS_RUNGE_KUTTA
+    if (integrator == SPH_RUNGE_KUTTA || integrator == SPH_RUNGE_KUTTA_MOMENTUM)
+        return rk_program;
+#endif
+    return prime_program; /* not reached: sph_config_check refuses integrators that are not in */
+}
 
 /* ---- time step ---- */
 
@@ -331,7 +412,7 @@ static double fastest_sound(const sph_sim *sim)
     double c = sim->cfg.sound_speed;
     for (uint32_t s = 0; s < sim->sets; s++)
         c = sim->set[s].c0 > c ? sim->set[s].c0 : c;
-    return sim->cfg.eos == SPH_TAIT_GRAY ? c * 2.6457513110645905905 : c; /* sqrt 7 */
+    return SPH_IS(sim->cfg.eos, TAIT_GRAY) ? c * 2.6457513110645905905 : c; /* sqrt 7 */
 }
 
 /* what each limit allows after a force sweep (Gray 2001 eq 2.30, Wickramarachchi 2009 eqs 3.88-3.90) */
@@ -339,7 +420,7 @@ static void find_limits(const sph_sim *sim, double *l)
 {
     const sph_config *c = &sim->cfg;
     const double h = c->smoothing_length, c0 = fastest_sound(sim), a = (double)sim->now.peaks.acc;
-    double nu = c->viscosity == SPH_MORRIS ? c->nu : c->viscosity ? c->alpha * c0 * h / (2 * (SPH_DIM + 2)) : 0, g = 0;
+    double nu = SPH_IS(c->viscosity, MORRIS) ? c->nu : sph_viscous(c->viscosity) ? c->alpha * c0 * h / (2 * (SPH_DIM + 2)) : 0, g = 0;
     for (int k = 0; k < SPH_DIM; k++)
         g += c->gravity[k] * c->gravity[k];
     g = __builtin_sqrt(g);
@@ -410,27 +491,40 @@ static sph_status load_program(sph_sim *sim, const sph_pass *const *p)
     return SPH_OK;
 }
 
-static sph_status begin_prime(sph_sim *sim)
+static sph_status move_groups(sph_sim *sim, double t)
 {
+#if SPH_WITH_MOVING_WALLS
+    return sph_move_groups(sim, t);
+#else
+    (void)sim, (void)t;
+    return SPH_OK;
+#endif
+}
+
+/* begins the computation of the first forces; chunk_cells: how finely its sweeps and sorts can be sliced */
+static sph_status begin_prime(sph_sim *sim, uint32_t chunk_cells)
+{
+    sim->chunk_cells = chunk_cells;
     if (sim->now.count == 0)
         return sph_error(sim, SPH_BAD_STATE, "step", "after particles were added", 0, SPH_NO_PARTICLE);
     sim->next = sim->now;
     sim->dt = 0;
-    sph_status st = sph_move_groups(sim, sim->now.time);
+    sph_status st = move_groups(sim, sim->now.time);
     return st ? st : load_program(sim, prime_program);
 }
 
-static sph_status begin_step(sph_sim *sim)
+static sph_status begin_step(sph_sim *sim, uint32_t chunk_cells)
 {
+    sim->chunk_cells = chunk_cells;
     sim->next = sim->now;
     sph_status st = choose_dt(sim, sim->t_end);
     if (st)
         return st;
     sim->next.step++;
     sim->next.dt_last = sim->dt;
-    if ((st = sph_move_groups(sim, sim->next.time)) != SPH_OK)
+    if ((st = move_groups(sim, sim->next.time)) != SPH_OK)
         return st;
-    return load_program(sim, programs[sim->cfg.integrator]);
+    return load_program(sim, program_of(sim->cfg.integrator));
 }
 
 typedef struct job {
@@ -493,13 +587,6 @@ static const char *fail_quantity(sph_status s)
     }
 }
 
-/* a failed step is forgotten: cur, now and the buffer cur were never written */
-static sph_status give_up(sph_sim *sim, sph_status st)
-{
-    sim->begun = false;
-    return st;
-}
-
 static sph_status end_pass(sph_sim *sim)
 {
     const sph_pass *p = sim->program[sim->pc];
@@ -509,9 +596,11 @@ static sph_status end_pass(sph_sim *sim)
     sph_status st = p->end ? p->end(sim) : SPH_OK;
     if (st)
         return st;
+#if SPH_WITH_STAGE_LOG
     if (sim->cfg.stage_log)
         sim->cfg.stage_log(sim->cfg.stage_ctx, sim->next.step, p->name,
                            sph_hash_buffer(sim, &sim->buf[sim->dst], sim->next.count));
+#endif
     sim->pc++;
     sim->chunk = sim->chunks = 0;
     return SPH_OK;
@@ -520,14 +609,15 @@ static sph_status end_pass(sph_sim *sim)
 /* mass of the fluid that buffer b has, set by set; the dead have none */
 static double fluid_mass(const sph_sim *sim, const sph_buffer *b, uint32_t n)
 {
-    uint32_t count[SPH_MAX_SETS] = {0};
     double mass = 0;
-    for (uint32_t i = 0; i < n; i++)
-        if (b->set[0][i] != SPH_DEAD)
-            count[b->set[0][i]]++;
-    for (uint32_t s = 0; s < sim->sets; s++)
-        if (sim->set[s].role == SPH_ROLE_FLUID)
-            mass += count[s] * sim->set[s].mass;
+    for (uint32_t s = 0; s < sim->sets; s++) {
+        uint32_t count = 0;
+        if (sim->set[s].role != SPH_ROLE_FLUID)
+            continue;
+        for (uint32_t i = 0; i < n; i++)
+            count += b->set[0][i] == s;
+        mass += count * sim->set[s].mass;
+    }
     return mass;
 }
 
@@ -553,52 +643,67 @@ static void commit(sph_sim *sim)
     }
 }
 
+/* work units of the pass under way */
+static uint64_t pass_work(const sph_sim *sim)
+{
+    uint64_t w = 0;
+    for (uint32_t t = 0; t < sim->cfg.max_threads; t++)
+        w += sim->thread[t].work;
+    return w;
+}
+
+/* the chunks of the current pass that are left, or as many as the budget takes; adds to *spent */
+static sph_status run_pass(sph_sim *sim, uint64_t budget, uint64_t *spent)
+{
+    const sph_pass *p = sim->program[sim->pc];
+    if (p->wanted && !p->wanted(sim)) {
+        sim->pc++;
+        return SPH_OK;
+    }
+    if (sim->chunk == 0)
+        sim->chunks = p->chunks ? p->chunks(sim) : 0;
+    while (sim->chunk < sim->chunks) {
+        uint32_t n = sim->chunks - sim->chunk;
+        if (budget) {
+            if (*spent >= budget)
+                return SPH_NOT_DONE;
+            n = n < thread_count(sim) ? n : thread_count(sim);
+        }
+        const uint64_t before = pass_work(sim);
+        run_chunks(sim, n);
+        *spent += pass_work(sim) - before;
+    }
+    sph_status st = end_pass(sim);
+    if (st)
+        sim->begun = false; /* a failed step is forgotten: cur, now and the buffer cur were never written */
+    return st;
+}
+
 /* Runs the program until its end (budget 0) or until about `budget` units are spent. */
 static sph_status run_program(sph_sim *sim, uint64_t budget)
 {
     uint64_t spent = 0;
-    while (sim->pc < sim->passes) {
-        const sph_pass *p = sim->program[sim->pc];
-        if (p->wanted && !p->wanted(sim)) {
-            sim->pc++;
-            continue;
-        }
-        if (sim->chunk == 0)
-            sim->chunks = p->chunks ? p->chunks(sim) : 0;
-        while (sim->chunk < sim->chunks) {
-            uint32_t n = sim->chunks - sim->chunk;
-            if (budget) {
-                if (spent >= budget)
-                    return SPH_NOT_DONE;
-                n = n < thread_count(sim) ? n : thread_count(sim);
-            }
-            uint64_t before = 0, after = 0;
-            for (uint32_t t = 0; t < sim->cfg.max_threads; t++)
-                before += sim->thread[t].work;
-            run_chunks(sim, n);
-            for (uint32_t t = 0; t < sim->cfg.max_threads; t++)
-                after += sim->thread[t].work;
-            spent += after - before;
-            if (budget && spent > sim->mark_slice)
-                sim->mark_slice = spent;
-        }
-        sph_status st = end_pass(sim);
-        if (st)
-            return give_up(sim, st);
-    }
-    commit(sim);
-    return SPH_OK;
+    sph_status st = SPH_OK;
+    while (!st && sim->pc < sim->passes)
+        st = run_pass(sim, budget, &spent);
+    if (budget && spent > sim->mark_slice)
+        sim->mark_slice = spent;
+    if (!st)
+        commit(sim);
+    return st;
 }
 
 /* ---- entry points ---- */
 
 sph_status sph_ready(sph_sim *sim)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "sph_ready", "between steps", 0, SPH_NO_PARTICLE);
     if (sim->now.primed)
         return SPH_OK;
-    sph_status st = begin_prime(sim);
+    sph_status st = begin_prime(sim, SPH_SWEEP_CHUNK);
     return st ? st : run_program(sim, 0);
 }
 
@@ -606,8 +711,9 @@ static sph_status advance(sph_sim *sim, double t_end, uint64_t budget)
 {
     sph_status st = SPH_OK;
     if (!sim->begun) {
+        const uint32_t cells = budget ? SPH_SLICE_CHUNK : SPH_SWEEP_CHUNK;
         sim->t_end = t_end;
-        st = sim->now.primed ? begin_step(sim) : begin_prime(sim);
+        st = sim->now.primed ? begin_step(sim, cells) : begin_prime(sim, cells);
         if (st)
             return st;
     }
@@ -616,6 +722,8 @@ static sph_status advance(sph_sim *sim, double t_end, uint64_t budget)
 
 sph_status sph_step_to(sph_sim *sim, double t_end)
 {
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
     if (sim->begun)
         return sph_error(sim, SPH_BAD_STATE, "sph_step", "after the step begun in slices", 0, SPH_NO_PARTICLE);
     if (!(t_end > sim->now.time))
@@ -628,7 +736,7 @@ sph_status sph_step(sph_sim *sim) { return sph_step_to(sim, 1e300); }
 
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget)
 {
-    if (budget == 0)
+    if (!sim || budget == 0)
         return sph_error(sim, SPH_BAD_ARGUMENT, "budget", "> 0", 0, SPH_NO_PARTICLE);
     const uint64_t step = sim->now.step;
     sph_status st = advance(sim, 1e300, budget);
@@ -636,12 +744,18 @@ sph_status sph_step_slice(sph_sim *sim, uint64_t budget)
     return st == SPH_OK && sim->now.step == step ? SPH_NOT_DONE : st;
 }
 
-void sph_step_cancel(sph_sim *sim) { sim->begun = false; }
+void sph_step_cancel(sph_sim *sim)
+{
+    if (sim)
+        sim->begun = false;
+}
 
-double sph_time(const sph_sim *sim) { return sim->now.time; }
+double sph_time(const sph_sim *sim) { return sim ? sim->now.time : 0; }
 
 void sph_get_step(const sph_sim *sim, sph_step_info *out)
 {
+    if (!sim || !out)
+        return;
     memset(out, 0, sizeof *out);
     out->step = sim->now.step;
     out->time = sim->now.time;

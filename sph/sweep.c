@@ -27,11 +27,12 @@ typedef struct filling {
 SPH_INLINE vreal pressure(uint32_t eos, bool floor, vreal b, vreal d)
 {
     vreal p;
-    switch (eos) {
-    case SPH_LINEAR: p = b * d; break;
-    case SPH_ISOTHERMAL: p = b * (1 + d); break;
-    default: p = b * (d * (7 + d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d))))))); break;
-    }
+    if (SPH_IS(eos, LINEAR))
+        p = b * d;
+    else if (SPH_IS(eos, ISOTHERMAL))
+        p = b * (1 + d);
+    else
+        p = b * (d * (7 + d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d)))))));
     return floor ? v_pos(p) : p;
 }
 
@@ -44,7 +45,7 @@ typedef struct columns {
 /* Coordinate k of W particles from index s on, relative to the home cell. */
 SPH_INLINE vreal load_axis(const filling *f, const image *im, uint32_t k, uint32_t s, bool is_image)
 {
-    const vreal quantum = v_set((sph_real)f->sim->quantum);
+    const vreal quantum = v_set((sph_real)f->sim->grid.quantum);
     const vint q = v_load_int(f->b->pos[k] + s);
     if (!is_image)
         return v_from_int(q - v_set_int(f->origin[k])) * quantum;
@@ -58,14 +59,13 @@ SPH_INLINE void load_columns(const filling *f, const image *im, const sph_set *s
 {
     const vreal m = v_set(set->mass_r), r0 = v_set(set->rho0_r), b = v_set(set->b_r);
     const uint32_t at = t->n;
-    /* a row has about SPH_STRIDE particles; copying so many without asking saves a branch that would be mispredicted */
-    for (uint32_t from = 0; from < n; from += SPH_STRIDE)
+    for (uint32_t from = 0; from < n; from += SPH_COPIED)
         SPH_UNROLL
-        for (uint32_t l = 0; l < SPH_STRIDE; l += SPH_W) {
+        for (uint32_t l = 0; l < SPH_COPIED; l += SPH_W) {
             const uint32_t j = from + l;
             SPH_UNROLL
             for (uint32_t k = 0; k < SPH_DIM; k++) {
-                vreal v = wall ? v_set((sph_real)f->sim->next.group[set->group].vel[k]) : v_load(f->b->vel[k] + s + j);
+                vreal v = wall ? v_set((sph_real)sph_wall_velocity(f->sim, set, k)) : v_load(f->b->vel[k] + s + j);
                 v_store(t->x[k] + at + j, load_axis(f, im, k, s + j, is_image));
                 v_store(t->v[k] + at + j, is_image ? v * im->flip[k] : v);
             }
@@ -83,9 +83,8 @@ static __attribute__((noinline)) void load_any(const filling *f, const image *im
                                                sph_tile *t)
 {
     const sph_config *c = &f->sim->cfg;
-    const columns cols = {c->eos, c->scheme == SPH_STANDARD || c->scheme == SPH_STANDARD_WICK, c->pressure_floor,
-                          f->w->needs_iv};
-    load_columns(f, im, set, s, n, t, cols, im->is_image, set->role == SPH_ROLE_GHOST);
+    const columns cols = {c->eos, !sph_weak_scheme(c->scheme), c->pressure_floor, f->w->needs_iv};
+    load_columns(f, im, set, s, n, t, cols, SPH_HAS_IMAGES && im->is_image, SPH_HAS_LAYERED_WALLS && set->role == SPH_ROLE_GHOST);
 }
 
 static void load(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n, sph_tile *t)
@@ -100,6 +99,7 @@ static void load(const filling *f, const image *im, const sph_set *set, uint32_t
     load_any(f, im, set, s, n, t);
 }
 
+#if SPH_HAS_FORCE_WALLS
 /* positions only, for boundary-force particles */
 static void load_positions(const filling *f, const image *im, uint32_t s, uint32_t n, sph_real (*x)[SPH_TILE + SPH_STRIDE], uint32_t at)
 {
@@ -108,23 +108,27 @@ static void load_positions(const filling *f, const image *im, uint32_t s, uint32
             v_store(x[k] + at + j, load_axis(f, im, k, s + j, im->is_image));
 }
 
+#endif
+
+#if SPH_HAS_LAYERED_WALLS
 /* normals, depths and viscous velocities of a run of ghost particles already loaded at `at` */
 static void load_ghost(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n, uint32_t at)
 {
     sph_ghost_tile *g = &f->t->more;
-    const bool mirror = set->kind == SPH_WALL_GHOST;
-    const double q = f->sim->quantum;
+    const bool mirror = SPH_IS(set->kind, WALL_GHOST);
+    const double q = f->sim->grid.quantum;
     double plane = 0; /* normal . (wall face - home cell), with the wall where it is now, and its image */
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        double moved = (double)f->sim->next.group[set->group].moved[k] * q;
+    for (uint32_t k = 0; mirror && k < SPH_DIM; k++) {
+        double moved = (double)sph_wall_moved(f->sim, set, k) * q;
         double o = (double)im->sign[k] * (set->origin[k] + moved) + (double)(im->shift[k] - f->origin[k]) * q;
         plane += (double)im->sign[k] * set->normal[k] * o;
     }
     for (uint32_t j = 0; j < n; j++) {
         double x = 0;
         for (uint32_t k = 0; k < SPH_DIM; k++) {
-            double nk = (double)im->sign[k] * set->normal[k];
-            x += nk * (double)f->t->ghost.x[k][at + j];
+            const double nk = mirror ? (double)im->sign[k] * set->normal[k] : 0;
+            if (mirror)
+                x += nk * (double)f->t->ghost.x[k][at + j];
             g->n[k][at + j] = (sph_real)nk;
             g->u[k][at + j] = mirror || !set->no_slip ? f->t->ghost.v[k][at + j] : f->b->vel[k][s + j] * im->flip[k];
         }
@@ -133,10 +137,12 @@ static void load_ghost(const filling *f, const image *im, const sph_set *set, ui
     }
 }
 
+#endif
+
 /* makes the columns behind the last candidate harmless: far away, without mass */
 static void close_tile(const filling *f, sph_tile *t, bool ghost)
 {
-    const sph_real far = (sph_real)(64 * f->sim->support);
+    const sph_real far = (sph_real)(64 * f->sim->grid.support);
     for (uint32_t j = t->n; j < t->n + SPH_LANES; j++) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             t->x[k][j] = far;
@@ -151,25 +157,30 @@ static void close_tile(const filling *f, sph_tile *t, bool ghost)
     }
 }
 
+/* how many candidates a class's tile has */
+SPH_INLINE uint32_t *tile_count(sph_thread *t, uint32_t role)
+{
+    if (SPH_HAS_LAYERED_WALLS && role == SPH_ROLE_GHOST)
+        return &t->ghost.n;
+    if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
+        return &t->forces;
+    return &t->fluid.n;
+}
+
 /* works a class's tile off for all homes and empties it */
 static void flush(filling *f, uint32_t role)
 {
     sph_thread *t = f->t;
-    uint32_t n = role == SPH_ROLE_FLUID ? t->fluid.n : role == SPH_ROLE_GHOST ? t->ghost.n : t->forces;
-    if (n == 0)
+    uint32_t *n = tile_count(t, role);
+    if (*n == 0)
         return;
     if (role == SPH_ROLE_FLUID)
         close_tile(f, &t->fluid, false);
-    else if (role == SPH_ROLE_GHOST)
+    else if (SPH_HAS_LAYERED_WALLS && role == SPH_ROLE_GHOST)
         close_tile(f, &t->ghost, true);
     f->w->tile(f->sim, t, f->homes, role);
-    t->pairs += (uint64_t)n * f->homes;
-    if (role == SPH_ROLE_FLUID)
-        t->fluid.n = 0;
-    else if (role == SPH_ROLE_GHOST)
-        t->ghost.n = 0;
-    else
-        t->forces = 0;
+    t->pairs += (uint64_t)*n * f->homes;
+    *n = 0;
 }
 
 /* candidates s..e of one set into their tile */
@@ -177,19 +188,24 @@ static void add_run(filling *f, const image *im, const sph_set *set, uint32_t s,
 {
     sph_thread *t = f->t;
     while (s < e) {
-        uint32_t *n = set->role == SPH_ROLE_FLUID ? &t->fluid.n : set->role == SPH_ROLE_GHOST ? &t->ghost.n : &t->forces;
+        uint32_t *n = tile_count(t, set->role);
         if (*n == SPH_TILE)
             flush(f, set->role);
         uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
-        if (set->role == SPH_ROLE_FLUID) {
+        if (set->role == SPH_ROLE_FLUID)
             load(f, im, set, s, take, &t->fluid);
-        } else if (set->role == SPH_ROLE_GHOST) {
+#if SPH_HAS_LAYERED_WALLS
+        if (set->role == SPH_ROLE_GHOST) {
             load(f, im, set, s, take, &t->ghost);
             load_ghost(f, im, set, s, take, *n);
-        } else {
+        }
+#endif
+#if SPH_HAS_FORCE_WALLS
+        if (set->role == SPH_ROLE_FORCE_WALL) {
             load_positions(f, im, s, take, t->fx, *n);
             memset(t->fset + *n, f->b->set[0][s], take);
         }
+#endif
         *n += take;
         s += take;
     }
@@ -213,26 +229,26 @@ static void add_cells(filling *f, const image *im, uint32_t c0, uint32_t c1)
 /* Cell c + o along axis k: its index if it exists, directly or as an image (then im is changed); false if nothing is there. */
 static bool look(const sph_sim *sim, uint32_t k, uint32_t c, int o, uint32_t *cell, image *im)
 {
-    const uint32_t n = sim->ncell[k];
+    const uint32_t n = sim->grid.ncell[k];
     const bool low = o < 0 && c == 0, high = o > 0 && c == n - 1;
     if (!low && !high) {
         *cell = c + (uint32_t)o;
         return true;
     }
     const uint32_t face = sim->cfg.face[k][high];
-    if (face == SPH_OPEN)
+    if (!SPH_HAS_IMAGES || face == SPH_OPEN)
         return false;
     im->is_image = true;
-    if (face == SPH_PERIODIC) {
+    if (SPH_IS(face, PERIODIC)) {
         *cell = low ? n - 1 : 0;
-        im->shift[k] = low ? -sim->extent[k] : sim->extent[k];
+        im->shift[k] = low ? -sim->grid.extent[k] : sim->grid.extent[k];
         return true;
     }
     *cell = c; /* a mirror: the cell's own picture behind the face */
     im->sign[k] = -1;
-    im->shift[k] = low ? 0 : 2 * sim->extent[k];
+    im->shift[k] = low ? 0 : 2 * sim->grid.extent[k];
     for (uint32_t a = 0; a < SPH_DIM; a++)
-        if (a == k || face == SPH_MIRROR_NO_SLIP)
+        if (a == k || SPH_IS(face, MIRROR_NO_SLIP))
             im->flip[a] = -im->flip[a];
     return true;
 }
@@ -251,14 +267,14 @@ static const image no_image = {false,
 static void add_row(filling *f, const image *im, uint32_t row, uint32_t cx)
 {
     const sph_sim *sim = f->sim;
-    uint32_t x, lo = cx > 0 ? cx - 1 : 0, hi = cx + 1 < sim->ncell[0] ? cx + 1 : cx;
+    uint32_t x, lo = cx > 0 ? cx - 1 : 0, hi = cx + 1 < sim->grid.ncell[0] ? cx + 1 : cx;
     if (cx == 0) {
         image e = *im;
         if (look(sim, 0, cx, -1, &x, &e))
             add_cells(f, &e, row + x, row + x);
     }
     add_cells(f, im, row + lo, row + hi);
-    if (cx + 1 == sim->ncell[0]) {
+    if (cx + 1 == sim->grid.ncell[0]) {
         image e = *im;
         if (look(sim, 0, cx, 1, &x, &e))
             add_cells(f, &e, row + x, row + x);
@@ -271,12 +287,12 @@ static void add_all(filling *f, const uint32_t *c)
     /* away from the domain's faces there are no images and every row has three cells */
     bool inner = true;
     for (uint32_t k = 0; k < SPH_DIM; k++)
-        inner &= c[k] > 0 && c[k] + 1 < f->sim->ncell[k];
+        inner &= c[k] > 0 && c[k] + 1 < f->sim->grid.ncell[k];
     if (inner) {
-        const uint32_t nx = f->sim->ncell[0];
+        const uint32_t nx = f->sim->grid.ncell[0];
         for (uint32_t z = SPH_DIM == 3 ? c[2] - 1 : 0; z <= (SPH_DIM == 3 ? c[2] + 1 : 0); z++)
             for (uint32_t y = c[1] - 1; y <= c[1] + 1; y++) {
-                uint32_t row = (z * f->sim->ncell[1] + y) * nx + c[0];
+                uint32_t row = (z * f->sim->grid.ncell[1] + y) * nx + c[0];
                 add_cells(f, &no_image, row - 1, row + 1);
             }
         return;
@@ -289,7 +305,7 @@ static void add_all(filling *f, const uint32_t *c)
         image im = no_image;
         uint32_t y;
         if (look(f->sim, 1, c[1], o, &y, &im))
-            add_row(f, &im, y * f->sim->ncell[0], c[0]);
+            add_row(f, &im, y * f->sim->grid.ncell[0], c[0]);
     }
 #else
     for (int p = -1; p <= 1; p++) {
@@ -300,7 +316,7 @@ static void add_all(filling *f, const uint32_t *c)
         for (int o = -1; o <= 1; o++) {
             image im = imz;
             if (look(f->sim, 1, c[1], o, &y, &im))
-                add_row(f, &im, (z * f->sim->ncell[1] + y) * f->sim->ncell[0], c[0]);
+                add_row(f, &im, (z * f->sim->grid.ncell[1] + y) * f->sim->grid.ncell[0], c[0]);
         }
     }
 #endif
@@ -345,7 +361,7 @@ static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
     const sph_sim *sim = f->sim;
     uint32_t s = sim->cell[cell], e = sim->cell[cell + 1];
     for (uint32_t k = 0; k < SPH_DIM; k++)
-        f->origin[k] = (sph_pos)c[k] * sim->cell_size[k];
+        f->origin[k] = (sph_pos)c[k] * sim->grid.cell_size[k];
     while (s < e) {
         load_homes(f, &s, e);
         if (f->homes == 0)
@@ -356,14 +372,19 @@ static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
         f->t->fluid.n = f->t->ghost.n = f->t->forces = 0;
         add_all(f, c);
         flush(f, SPH_ROLE_FLUID);
-        flush(f, SPH_ROLE_GHOST);
-        flush(f, SPH_ROLE_FORCE_WALL);
+        if (SPH_HAS_LAYERED_WALLS)
+            flush(f, SPH_ROLE_GHOST);
+        if (SPH_HAS_FORCE_WALLS)
+            flush(f, SPH_ROLE_FORCE_WALL);
         for (uint32_t h = 0; h < f->homes; h++)
             f->w->finish(f->sim, f->t, h);
     }
 }
 
-uint32_t sph_sweep_chunks(const sph_sim *sim) { return (sim->cells + SPH_SWEEP_CHUNK - 1) / SPH_SWEEP_CHUNK; }
+uint32_t sph_sweep_chunks(const sph_sim *sim)
+{
+    return (sim->grid.cells + sim->chunk_cells - 1) / sim->chunk_cells;
+}
 uint32_t sph_local_chunks(const sph_sim *sim)
 {
     return (sim->next.count + SPH_LOCAL_CHUNK - 1) / SPH_LOCAL_CHUNK;
@@ -378,23 +399,23 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     f.b = &sim->buf[sim->dst];
     f.homes = 0;
     const sph_config *cfg = &sim->cfg;
-    f.usual = cfg->eos == SPH_TAIT && cfg->scheme == SPH_STANDARD && !cfg->pressure_floor && !w->needs_iv;
+    f.usual = SPH_IS(cfg->eos, TAIT) && SPH_IS(cfg->scheme, STANDARD) && !cfg->pressure_floor && !w->needs_iv;
     uint64_t before = t->pairs;
-    uint32_t cell = chunk * SPH_SWEEP_CHUNK, c[3], q = cell;
-    uint32_t last = cell + SPH_SWEEP_CHUNK < sim->cells ? cell + SPH_SWEEP_CHUNK : sim->cells;
+    uint32_t cell = chunk * sim->chunk_cells, c[3], q = cell;
+    const uint32_t left = sim->grid.cells - cell, last = cell + (left < sim->chunk_cells ? left : sim->chunk_cells);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        c[k] = q % sim->ncell[k];
-        q /= sim->ncell[k];
+        c[k] = q % sim->grid.ncell[k];
+        q /= sim->grid.ncell[k];
     }
     for (; cell < last; cell++) {
-        while (cell + 8 < last && c[0] + 8 < sim->ncell[0] && sim->cell[cell] == sim->cell[cell + 8]) {
+        while (cell + 8 < last && c[0] + 8 < sim->grid.ncell[0] && sim->cell[cell] == sim->cell[cell + 8]) {
             cell += 8; /* eight empty cells */
             c[0] += 8;
         }
         if (sim->cell[cell] != sim->cell[cell + 1])
             sweep_cell(&f, cell, c);
-        for (uint32_t k = 0; k < SPH_DIM && ++c[k] == sim->ncell[k]; k++)
+        for (uint32_t k = 0; k < SPH_DIM && ++c[k] == sim->grid.ncell[k]; k++)
             c[k] = k + 1 < SPH_DIM ? 0 : c[k];
     }
-    t->work += t->pairs - before + SPH_SWEEP_CHUNK;
+    t->work += t->pairs - before + sim->chunk_cells;
 }

@@ -13,10 +13,14 @@
 #include "internal.h"
 
 #define SPH_TILE (SPH_DIM == 1 ? 64 : SPH_DIM == 2 ? 128 : 384)
-#define SPH_STRIDE (SPH_DIM == 1 ? 8u : SPH_DIM == 2 ? 24u : 48u) /* particles that a row is copied by */
+#define SPH_STRIDE (SPH_DIM == 1 ? 8u : SPH_DIM == 2 ? 24u : 48u) /* room behind a tile, for copies of fixed length */
 #define SPH_HOMES 16u /* a multiple of 8 */
 #define SPH_SUMS (SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12)
+/* particles that load_columns copies without asking how many there are: a row has about SPH_STRIDE, and a loop of fixed length
+   saves a branch that would be mispredicted; where a register holds one real, copying too many costs more */
+#define SPH_COPIED (SPH_SCALAR ? 1u : SPH_STRIDE)
 #define SPH_SWEEP_CHUNK 32u  /* cells */
+#define SPH_SLICE_CHUNK 1u   /* cells, in a step that is done in slices */
 #define SPH_LOCAL_CHUNK 256u /* particles */
 
 typedef struct sph_tile {
@@ -37,15 +41,32 @@ typedef struct sph_ghost_tile {
     sph_real vis[SPH_TILE + SPH_STRIDE];        /* 1: viscosity acts, 0: free slip */
 } sph_ghost_tile;
 
+/* what the sort works on: new positions (and where asked, velocities and densities) of a block of particles */
+#define SPH_BLOCK 64u
+typedef struct sph_block {
+    sph_pos pos[SPH_DIM][SPH_BLOCK + 8];
+    sph_real vel[SPH_DIM][SPH_BLOCK + 8];
+    sph_real rho[SPH_BLOCK + 8];
+    uint32_t to[SPH_BLOCK];  /* the count: its cell; the scatter: its place */
+    uint8_t gone[SPH_BLOCK]; /* 1: dropped silently, 2: left the domain */
+} sph_block;
+
+/* scratch of a thread, so that no function needs a large stack */
 typedef struct sph_thread {
-    sph_tile home, fluid, ghost;
-    sph_ghost_tile more;
-    uint32_t forces; /* boundary-force particles: set and position only */
-    sph_real fx[SPH_DIM][SPH_TILE + SPH_STRIDE];
-    uint8_t fset[SPH_TILE + SPH_STRIDE];
-    uint32_t home_at[SPH_HOMES]; /* index of the home particle */
-    uint8_t home_set[SPH_HOMES];
-    sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */
+    union {
+        struct { /* sweeps */
+            sph_tile home, fluid, ghost;
+            sph_ghost_tile more;
+            uint32_t forces; /* boundary-force particles: set and position only */
+            sph_real fx[SPH_DIM][SPH_TILE + SPH_STRIDE];
+            uint8_t fset[SPH_TILE + SPH_STRIDE];
+            uint32_t home_at[SPH_HOMES]; /* index of the home particle */
+            uint8_t home_set[SPH_HOMES];
+            sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */
+        };
+        sph_block block;                /* the sort */
+        uint8_t near[SPH_LOCAL_CHUNK];  /* 1: particle of the chunk may be inside a wall */
+    };
     /* what a pass gathers over its chunks: order does not matter for any of these */
     uint64_t work, pairs;
     sph_peaks peaks;

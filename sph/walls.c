@@ -13,6 +13,7 @@
 
 #define SPH_PI 3.14159265358979323846
 
+#if SPH_HAS_FORCE_WALLS
 /* ---- boundary forces ---- */
 
 /* the window along the wall, half a cosine wide dx on either side (Gray 2.41); in 3-D one for each direction */
@@ -39,7 +40,7 @@ static double window(const sph_set *s, const double *r, double perp, double dx)
 static double normal_force(const sph_sim *sim, const sph_set *s, double r)
 {
     double h = sim->cfg.smoothing_length, q = r / h;
-    if (s->kind == SPH_WALL_KERNEL_FORCE) {
+    if (SPH_IS(s->kind, WALL_KERNEL_FORCE)) {
         double c = s->strength * s->c0 * s->c0;
         if (q >= 2)
             return 0;
@@ -66,14 +67,14 @@ void sph_force_walls(const sph_sim *sim, sph_thread *t, uint32_t h)
             r2 += r[k] * r[k];
             perp += r[k] * s->normal[k];
         }
-        if (s->kind == SPH_WALL_LENNARD_JONES) {
+        if (SPH_IS(s->kind, WALL_LENNARD_JONES)) {
             if (!(r2 < dx * dx) || r2 < 1e-6 * dx * dx)
                 continue;
             double q2 = dx * dx / r2, q6 = q2 * q2 * q2, c = s->strength * (q6 * q6 - q6) / r2;
             for (int k = 0; k < SPH_DIM; k++)
                 a[k] = c * r[k];
         } else {
-            if (perp < -dx || perp > sim->support)
+            if (perp < -dx || perp > sim->grid.support)
                 continue;
             double c = normal_force(sim, s, perp) * window(s, r, perp, dx);
             for (int k = 0; k < SPH_DIM; k++)
@@ -81,7 +82,7 @@ void sph_force_walls(const sph_sim *sim, sph_thread *t, uint32_t h)
         }
         for (int k = 0; k < SPH_DIM; k++) {
             f[k] += a[k];
-            power += a[k] * sim->next.group[s->group].vel[k];
+            power += a[k] * sph_wall_velocity(sim, s, (uint32_t)k);
         }
     }
     for (int k = 0; k < SPH_DIM; k++)
@@ -89,6 +90,9 @@ void sph_force_walls(const sph_sim *sim, sph_thread *t, uint32_t h)
     t->sum[SUM_FORCE][h][SPH_DIM] += (sph_real)power;
 }
 
+#endif
+
+#if SPH_WITH_WALL_ADAMI
 /* ---- Adami's extrapolation: a sweep whose homes are wall particles ---- */
 
 enum { SUM_W, SUM_PW, SUM_RW, SUM_UW = SUM_RW + SPH_DIM };
@@ -102,7 +106,7 @@ static bool adami_home(const sph_sim *sim, const sph_set *s)
 static void adami_home_tile(const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_tile *f = &t->fluid;
-    const bool ratio = sim->cfg.scheme == SPH_STANDARD || sim->cfg.scheme == SPH_STANDARD_WICK;
+    const bool ratio = !sph_weak_scheme(sim->cfg.scheme);
     const uint32_t kernel = sim->cfg.kernel;
     const vreal inv_h = v_set(sim->fac.inv_h);
     for (uint32_t j = 0; j < f->n; j += SPH_W) {
@@ -137,14 +141,14 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     const sph_buffer *b = &sim->buf[sim->dst];
     const uint32_t i = t->home_at[h];
     const sph_set *set = &sim->set[t->home_set[h]];
-    const sph_group_state *g = &sim->next.group[set->group], *before = &sim->now.group[set->group];
     double w = (double)v_fold(t->sum[SUM_W][h]), p = (double)v_fold(t->sum[SUM_PW][h]);
     const bool wet = w * (double)sim->fac.value * set->mass > 1e-6 * set->rho0;
     for (int k = 0; k < SPH_DIM; k++) {
         /* acceleration of the wall, by difference over the step */
-        double a = sim->dt > 0 ? (g->vel[k] - before->vel[k]) / sim->dt : 0;
+        const double v = sph_wall_velocity(sim, set, (uint32_t)k);
+        const double a = SPH_WITH_MOVING_WALLS && sim->dt > 0 ? (v - sim->now.group[set->group].vel[k]) / sim->dt : 0;
         p += (sim->cfg.gravity[k] - a) * (double)v_fold(t->sum[SUM_RW + k][h]);
-        b->acc[k][i] = (sph_real)(wet ? 2 * g->vel[k] - (double)v_fold(t->sum[SUM_UW + k][h]) / w : g->vel[k]);
+        b->acc[k][i] = (sph_real)(wet ? 2 * v - (double)v_fold(t->sum[SUM_UW + k][h]) / w : v);
     }
     p = wet ? p / w : 0;
     double d = wet ? sph_density_of(sim, set, sim->cfg.pressure_floor && p < 0 ? 0 : p) : 0;
@@ -175,6 +179,9 @@ static bool has_adami(const sph_sim *sim) { return sim->has_adami; }
 const sph_pass sph_pass_adami = {"adami walls", sph_sweep_chunks, adami_chunk, NULL, has_adami};
 const sph_pass sph_pass_adami_copy = {"adami copy", sph_local_chunks, adami_copy_chunk, NULL, has_adami};
 
+#endif
+
+#if SPH_WITH_MOVING_WALLS
 /* ---- walls that move or vanish ---- */
 
 sph_status sph_move_groups(sph_sim *sim, double t)
@@ -188,10 +195,13 @@ sph_status sph_move_groups(sph_sim *sim, double t)
         double x[SPH_DIM] = {0}, v[SPH_DIM] = {0};
         sim->group[g].motion(sim->group[g].ctx, t, x, v);
         for (int k = 0; k < SPH_DIM; k++) {
-            if (!(sph_abs(x[k]) < 2 * sim->length[k]) || !(sph_abs(v[k]) < 1e15))
+            if (!(sph_abs(x[k]) < 2 * sim->grid.length[k]) || !(sph_abs(v[k]) < 1e15))
                 return sph_error(sim, SPH_NOT_FINITE, "motion of a wall", "finite and inside the domain", x[k],
                                  SPH_NO_PARTICLE);
-            double q = x[k] / sim->quantum;
+            double q = x[k] / sim->grid.quantum, leap = sph_abs(q - (double)s->moved[k]) * sim->grid.quantum;
+            if (leap >= sim->grid.length[k])
+                return sph_error(sim, SPH_MOVED_TOO_FAR, "motion of a wall", "less than the domain's length in a step", leap,
+                                 SPH_NO_PARTICLE);
             s->moved[k] = (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
             s->vel[k] = v[k];
         }
@@ -199,6 +209,9 @@ sph_status sph_move_groups(sph_sim *sim, double t)
     return SPH_OK;
 }
 
+#endif
+
+#if SPH_HAS_WALLS
 /* ---- particles inside a wall ---- */
 
 /* depth of a place inside the region behind a set's face, or a negative number if it is outside */
@@ -230,12 +243,11 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
     uint32_t found = SPH_MAX_SETS;
     for (uint32_t w = 0; w < sim->sets; w++) {
         const sph_set *s = &sim->set[w];
-        if (s->role == SPH_ROLE_FLUID || s->corner || sim->next.group[s->group].removed)
+        if (s->role == SPH_ROLE_FLUID || s->corner || sph_wall_removed(sim, s))
             continue;
-        const sph_group_state *g = &sim->next.group[s->group];
         double x[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++)
-            x[k] = (double)(b->pos[k][i] - g->moved[k]) * sim->quantum;
+            x[k] = ((double)b->pos[k][i] - (double)sph_wall_moved(sim, s, (uint32_t)k)) * sim->grid.quantum;
         double d = depth_inside(s, x);
         if (d > 0 && (found == SPH_MAX_SETS || d < *depth)) {
             found = w;
@@ -245,23 +257,31 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
     return found;
 }
 
+/* a place of axis k from which a move of one cell still fits into an integer: at most about a domain's length outside */
+static sph_pos near_quanta(const sph_sim *sim, int k, int64_t q)
+{
+    const sph_pos low = -sim->grid.extent[k], high = 2 * sim->grid.extent[k] - sim->grid.cell_size[k] - 1;
+    return q < low ? low : q > high ? high : (sph_pos)q;
+}
+
 #define SPH_PUT_BACK_SPACINGS 0.1 /* how far off the wall a particle is put back */
 
 static void put_back(sph_sim *sim, const sph_buffer *b, uint32_t i, const sph_set *s, double depth)
 {
     double vn = 0, off = depth + SPH_PUT_BACK_SPACINGS * sim->cfg.spacing;
-    const double *wall = sim->next.group[s->group].vel;
     for (int k = 0; k < SPH_DIM; k++) {
-        double q = off * s->normal[k] / sim->quantum;
-        b->pos[k][i] += (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
-        vn += ((double)b->vel[k][i] - wall[k]) * s->normal[k];
+        const double most = 4 * (double)sim->grid.extent[k];
+        double q = off * s->normal[k] / sim->grid.quantum;
+        q = q < -most ? -most : q > most ? most : q;
+        b->pos[k][i] = near_quanta(sim, k, b->pos[k][i] + (int64_t)(q < 0 ? q - 0.5 : q + 0.5));
+        vn += ((double)b->vel[k][i] - sph_wall_velocity(sim, s, (uint32_t)k)) * s->normal[k];
     }
     if (vn < 0)
         for (int k = 0; k < SPH_DIM; k++)
             b->vel[k][i] -= (sph_real)(vn * s->normal[k]);
 }
 
-static void cross_one(sph_sim *sim, uint32_t i, sph_thread *t)
+static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     double depth = 0;
@@ -285,19 +305,19 @@ static void cross_one(sph_sim *sim, uint32_t i, sph_thread *t)
 void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    uint8_t near[SPH_LOCAL_CHUNK];
+    uint8_t *const near = t->near;
     if (sim->groups == 0 || sim->cfg.on_cross == SPH_IGNORE)
         return;
     memset(near, 0, last - first);
     for (uint32_t w = 0; w < sim->sets; w++) {
         const sph_set *s = &sim->set[w];
-        if (s->role == SPH_ROLE_FLUID || s->corner || sim->next.group[s->group].removed)
+        if (s->role == SPH_ROLE_FLUID || s->corner || sph_wall_removed(sim, s))
             continue;
         /* one loop a wall over integers: compilers make vectors of it */
         sph_pos lo[SPH_DIM], hi[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
-            lo[k] = s->low[k] + sim->next.group[s->group].moved[k];
-            hi[k] = s->high[k] + sim->next.group[s->group].moved[k];
+            lo[k] = near_quanta(sim, k, (int64_t)s->low[k] + sph_wall_moved(sim, s, (uint32_t)k));
+            hi[k] = near_quanta(sim, k, (int64_t)s->high[k] + sph_wall_moved(sim, s, (uint32_t)k));
         }
         for (uint32_t i = first; i < last; i++) {
             int in = 1;
@@ -311,3 +331,4 @@ void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
         if (near[i - first] && b->set[0][i] != SPH_DEAD && sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
             cross_one(sim, i, t);
 }
+#endif

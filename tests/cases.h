@@ -178,7 +178,11 @@ static sph_status case_walls(sph_sim *sim, const bits_case *b)
     if (!faces)
         return SPH_OK;
     sph_status st = sph_add_wall_box(sim, &w, lo, hi, faces, true, &group);
+#if SPH_WITH_MOVING_WALLS
     return st || !b->gate ? st : sph_remove_wall_at(sim, group, 3e-3);
+#else
+    return st || !b->gate ? st : SPH_BAD_ARGUMENT;
+#endif
 }
 
 static sph_status case_build(sph_sim *sim, const bits_case *b)

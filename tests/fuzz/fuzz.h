@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* fuzz.h: what the fuzz targets share: numbers out of a string of bytes, an arena that ends where the sanitizer looks,
+   and a copy of the whole committed state to compare with after a call that failed. Compiled once for each build. */
+#ifndef SPH_FUZZ_H
+#define SPH_FUZZ_H
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "tests/state.h"
+
+/* what must hold for any input; a fuzzer takes the abort for a finding */
+#define hold(cond)                                                                                          \
+    do {                                                                                                    \
+        if (!(cond)) {                                                                                      \
+            fprintf(stderr, "%s:%d: does not hold: %s\n", __FILE__, __LINE__, #cond);                       \
+            abort();                                                                                        \
+        }                                                                                                   \
+    } while (0)
+
+/* ---- bytes ---- */
+
+typedef struct bytes {
+    const unsigned char *p;
+    size_t n;
+} bytes;
+
+/* n <= 8 bytes as a number; zeros behind the end */
+static UNUSED uint64_t take(bytes *b, uint32_t n)
+{
+    uint64_t v = 0;
+    for (uint32_t i = 0; i < n && b->n; i++, b->n--)
+        v |= (uint64_t)*b->p++ << 8 * i;
+    return v;
+}
+static UNUSED uint32_t pick(bytes *b, uint32_t count) { return (uint32_t)take(b, 1) % count; }
+
+static UNUSED double as_double(uint64_t u)
+{
+    double d;
+    memcpy(&d, &u, sizeof d);
+    return d;
+}
+
+/* any double at all, the odd ones often */
+static UNUSED double take_any(bytes *b)
+{
+    static const double odd[] = {0.0, -0.0, 1, -1, 0.5, 1e-3, 1e3, 1e15, -1e15, 1e30, -1e30, 1e38, 3.5e38, 1e300, -1e300,
+                                 1.7976931348623157e308, 5e-324, 1e-310, 2.2250738585072014e-308, 1e-30, 2.220446049250313e-16};
+    const uint32_t how = pick(b, 32);
+    if (how < sizeof odd / sizeof *odd)
+        return odd[how];
+    switch (how) {
+    case 25: return __builtin_nan("");
+    case 26: return __builtin_inf();
+    case 27: return -__builtin_inf();
+    default: return as_double(take(b, 8));
+    }
+}
+
+/* a number about 0..scale, in 1/200 of it; seldom any double */
+static UNUSED double take_near(bytes *b, double scale)
+{
+    const uint32_t u = (uint32_t)take(b, 1);
+    return u == 255 ? take_any(b) : u == 254 ? (double)take(b, 2) / 65536 * scale : ((double)u - 27) / 200 * scale;
+}
+static UNUSED void take_point(bytes *b, double *x, double scale)
+{
+    for (int k = 0; k < SPH_DIM; k++)
+        x[k] = take_near(b, scale);
+}
+
+/* ---- the arena ---- */
+
+#define FUZZ_ARENA (SPH_DIM == 3 ? 3u << 20 : 3u << 19) /* larger simulations are not made */
+
+/* a simulation in a block of exactly the bytes that it asked for; null if it was refused or is too large */
+static UNUSED sph_sim *fuzz_init(const sph_config *c, void **block)
+{
+    sph_sim *sim = NULL;
+    sph_report r;
+    const size_t bytes = sph_arena_bytes(c);
+    *block = NULL;
+    if (bytes == 0 || bytes > FUZZ_ARENA)
+        return NULL;
+    hold(bytes % SPH_ALIGN == 0);
+    *block = aligned_alloc(SPH_ALIGN, bytes);
+    if (!*block)
+        return NULL;
+    memset(*block, 0xa5, bytes);
+    hold(sph_init(&sim, c, *block, bytes, &r) == SPH_OK && sim != NULL);
+    return sim;
+}
+
+/* ---- what holds after any step ---- */
+
+/* the bound on the work of a step that sph_step_slice states in sph.h */
+static UNUSED uint64_t most_work(const sph_sim *sim, uint64_t n)
+{
+    const sph_config *c = &sim->cfg;
+    const bool rk = c->integrator >= SPH_RUNGE_KUTTA;
+    const uint64_t forces = c->integrator == SPH_PREDICTOR_CORRECTOR ? 1 : 2, block = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27;
+    const uint64_t sums = c->density == SPH_SUMMATION || c->shepard_every ? (rk ? 2u : 1u) : 0;
+    const uint64_t e = forces * (sim->has_adami ? 2 : 1) + sums;
+    return e * (block * sim->mark_cell * n + sim->cells + 32) + 16 * n;
+}
+
+static UNUSED void check_books(const sph_sim *sim)
+{
+    sph_totals t;
+    sph_get_totals(sim, &t);
+    hold(sph_finite(t.mass) && t.mass >= 0 && sph_finite(t.removed_mass) && t.removed_mass >= 0);
+    hold(sph_finite(t.max_speed) && sph_finite(t.kinetic));
+    for (int k = 0; k < SPH_DIM; k++)
+        hold(sph_finite(t.momentum[k]));
+    hold(t.fluid + t.wall <= sph_count(sim) && sph_count(sim) <= sim->cfg.max_particles);
+}
+
+#endif

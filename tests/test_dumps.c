@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* test_dumps.c: a dump that is cut off anywhere, or in which any one byte is changed, is refused; the simulation that was to
+   take it is as it was in every array and scalar, and steps to the same hash as if nothing had been offered. */
+#include "testing.h"
+
+#include "fuzz/crc.h"
+#include "state.h"
+
+#define DX 0.25
+
+typedef struct tape {
+    unsigned char *byte;
+    size_t n, at;
+} tape;
+enum { ROOM = 1 << 16 };
+static unsigned char true_bytes[ROOM], changed_bytes[ROOM];
+
+static bool record(void *ctx, const void *p, size_t n)
+{
+    tape *t = ctx;
+    assert_true(t->n + n <= ROOM);
+    memcpy(t->byte + t->n, p, n);
+    t->n += n;
+    return true;
+}
+static bool play(void *ctx, void *p, size_t n)
+{
+    tape *t = ctx;
+    if (t->at + n > t->n)
+        return false;
+    memcpy(p, t->byte + t->at, n);
+    t->at += n;
+    return true;
+}
+
+static struct {
+    sph_sim *sim;
+    unsigned char *arena, *image;
+    size_t bytes;
+    uint64_t next;  /* hash after one more step */
+    snapshot s;
+    tape dump;      /* of three steps earlier: taking it would show */
+} bed;
+
+static void sway(void *ctx, double t, double *x, double *v)
+{
+    (void)ctx;
+    x[0] = 0.1 * t;
+    v[0] = 0.1;
+}
+
+static void make_bed(void)
+{
+    sph_config c = open_config(SPH_DIM == 3 ? 0.5 : 1, DX);
+    sph_wall w = sph_wall_default();
+    double lo[SPH_DIM] = {0}, hi[SPH_DIM];
+    uint32_t set;
+    c.max_particles = 200;
+    c.books = true;
+    c.xsph = 0.5;
+    c.gravity[0] = -9.81;
+    bed.sim = new_sim(&c);
+    for (int k = 0; k < SPH_DIM; k++)
+        hi[k] = SPH_DIM == 3 ? 0.5 : 0.75;
+    w.kind = SPH_WALL_GHOST;
+    w.layers = 1;
+    w.compressible = true;
+    w.motion = sway;
+    must(bed.sim, sph_add_fluid(bed.sim, NULL, &set));
+    must(bed.sim, sph_add_box(bed.sim, set, lo, hi, NULL));
+    must(bed.sim, sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0), true, NULL));
+    for (int k = 0; k < 3; k++)
+        must(bed.sim, sph_step(bed.sim));
+    bed.dump = (tape){true_bytes, 0, 0};
+    must(bed.sim, sph_dump(bed.sim, SPH_DUMP_FULL, record, &bed.dump));
+    for (int k = 0; k < 3; k++)
+        must(bed.sim, sph_step(bed.sim));
+    bed.arena = sims[sim_count - 1].arena;
+    bed.bytes = sims[sim_count - 1].bytes;
+    bed.image = malloc(bed.bytes);
+    assert_non_null(bed.image);
+    memcpy(bed.image, bed.arena, bed.bytes);
+    must(bed.sim, sph_step(bed.sim));
+    bed.next = sph_hash(bed.sim);
+    memcpy(bed.arena, bed.image, bed.bytes);
+    keep_state(bed.sim, &bed.s);
+}
+static void unmake_bed(void)
+{
+    free(bed.image);
+    free(bed.s.arrays);
+    assert_int_equal(free_sims(NULL), 0);
+}
+
+static bool is_dump_status(sph_status st)
+{
+    return st == SPH_DUMP_TRUNCATED || st == SPH_DUMP_CORRUPT || st == SPH_DUMP_FOREIGN || st == SPH_DUMP_NEWER ||
+           st == SPH_DUMP_MISMATCH;
+}
+
+/* offers n bytes; they must be refused and leave no trace. step: also look at the step that follows. */
+static sph_status offer(unsigned char *bytes, size_t n, const char *how, size_t at, bool step)
+{
+    tape t = {bytes, n, 0};
+    const sph_status st = sph_restore(bed.sim, play, &t);
+    if (!is_dump_status(st) || sph_last(bed.sim)->status != st)
+        fail_msg("%s at byte %zu: %s", how, at, sph_status_text(st));
+    if (!state_same(bed.sim, &bed.s))
+        fail_msg("%s at byte %zu: refused, but the simulation has changed", how, at);
+    if (step) {
+        must(bed.sim, sph_step(bed.sim));
+        if (sph_hash(bed.sim) != bed.next)
+            fail_msg("%s at byte %zu: refused, but the next step is another one", how, at);
+        memcpy(bed.arena, bed.image, bed.bytes);
+    }
+    return st;
+}
+
+static void the_true_dump_is_taken(void **state)
+{
+    (void)state;
+    make_bed();
+    must(bed.sim, sph_restore(bed.sim, play, &bed.dump));
+    assert_int_equal(bed.dump.at, bed.dump.n);
+    assert_true(sph_hash(bed.sim) != bed.s.hash);
+    for (int k = 0; k < 4; k++)
+        must(bed.sim, sph_step(bed.sim));
+    assert_true(sph_hash(bed.sim) == bed.next);
+    unmake_bed();
+}
+
+static void every_truncation_is_refused(void **state)
+{
+    (void)state;
+    make_bed();
+    for (size_t n = 0; n < bed.dump.n; n++)
+        assert_int_equal(offer(true_bytes, n, "cut off", n, n % 16 == 0), SPH_DUMP_TRUNCATED);
+    print_message("dumps: %zu truncation points refused\n", bed.dump.n);
+    unmake_bed();
+}
+
+/* all eight flips of a single bit, and the byte set to 0x00 and to 0xff */
+static void every_changed_byte_is_refused(void **state)
+{
+    size_t tried = 0;
+    (void)state;
+    make_bed();
+    memcpy(changed_bytes, true_bytes, bed.dump.n);
+    for (size_t at = 0; at < bed.dump.n; at++) {
+        const unsigned char good = true_bytes[at];
+        for (int k = 0; k < 10; k++) {
+            changed_bytes[at] = (unsigned char)(k < 8 ? good ^ 1u << k : k == 8 ? 0 : 0xff);
+            if (changed_bytes[at] == good)
+                continue;
+            offer(changed_bytes, bed.dump.n, "a changed bit", at, k == (int)(at % 10));
+            tried++;
+        }
+        changed_bytes[at] = good;
+    }
+    print_message("dumps: %zu changes of a byte refused, %zu bytes\n", tried, bed.dump.n);
+    assert_true(tried >= 9 * bed.dump.n);
+    unmake_bed();
+}
+
+/* ---- values that no run can have, under true checksums ---- */
+
+/* puts the checksums right behind a change of the payload of the section at `at` */
+static void mend(size_t n)
+{
+    uint32_t chain = crc_of(0, changed_bytes + 28, 4);
+    for (size_t at = 32; at < n;) {
+        const size_t payload = crc_get(changed_bytes + at + 48), crc = at + 64 + payload;
+        if (crc + 4 == n)
+            crc_put(changed_bytes + at + 64, chain);
+        crc_put(changed_bytes + crc, crc_of(0, changed_bytes + at + 64, payload));
+        chain = crc_of(crc_of(chain, changed_bytes + at + 60, 4), changed_bytes + crc, 4);
+        at = crc + 4;
+    }
+}
+static size_t section(const char *name)
+{
+    for (size_t at = 32; at < bed.dump.n; at += 64 + crc_get(true_bytes + at + 48) + 4)
+        if (strcmp((const char *)true_bytes + at, name) == 0)
+            return at;
+    fail_msg("no section %s", name);
+    return 0;
+}
+
+static void put_real(unsigned char *p, double x)
+{
+    const sph_real r = (sph_real)x;
+    uint64_t u = 0;
+    uint32_t w;
+    if (sizeof r == 8)
+        memcpy(&u, &r, sizeof u);
+    else {
+        memcpy(&w, &r, sizeof w);
+        u = w;
+    }
+    for (uint32_t i = 0; i < sizeof r; i++)
+        p[i] = (unsigned char)(u >> 8 * i);
+}
+
+static void impossible_values_are_refused_though_checksums_are_right(void **state)
+{
+    static const char *const reals[] = {"vel", "rho", "acc", "drho", "xsph"};
+    (void)state;
+    make_bed();
+    memcpy(changed_bytes, true_bytes, bed.dump.n);
+    mend(bed.dump.n); /* nothing is changed yet: mending must give the same bytes */
+    assert_memory_equal(changed_bytes, true_bytes, bed.dump.n);
+    for (size_t k = 0; k < sizeof reals / sizeof *reals; k++)
+        for (int bad = 0; bad < 3; bad++) {
+            const size_t at = section(reals[k]) + 64;
+            memcpy(changed_bytes, true_bytes, bed.dump.n);
+            put_real(changed_bytes + at, bad == 0 ? NAN : bad == 1 ? INFINITY : -INFINITY);
+            mend(bed.dump.n);
+            assert_int_equal(offer(changed_bytes, bed.dump.n, reals[k], at, true), SPH_DUMP_CORRUPT);
+        }
+    static const struct {
+        const char *name;
+        uint32_t byte, value;
+    } odd[] = {{"set", 0, 63}, {"set", 0, 200}, {"id", 3, 1}, {"id", 0, 255}, {"pos", sizeof(sph_pos) - 1, 0x7f},
+               {"pos", sizeof(sph_pos) - 1, 0x80}};
+    for (size_t k = 0; k < sizeof odd / sizeof *odd; k++) {
+        const size_t at = section(odd[k].name) + 64 + odd[k].byte;
+        memcpy(changed_bytes, true_bytes, bed.dump.n);
+        changed_bytes[at] = (unsigned char)odd[k].value;
+        mend(bed.dump.n);
+        assert_int_equal(offer(changed_bytes, bed.dump.n, odd[k].name, at, true), SPH_DUMP_CORRUPT);
+    }
+    memcpy(changed_bytes, true_bytes, bed.dump.n); /* two particles of one id */
+    memcpy(changed_bytes + section("id") + 64, changed_bytes + section("id") + 68, 4);
+    mend(bed.dump.n);
+    assert_int_equal(offer(changed_bytes, bed.dump.n, "id", 0, true), SPH_DUMP_CORRUPT);
+    unmake_bed();
+}
+
+int main(void)
+{
+    const struct CMUnitTest list[] = {
+        subject(the_true_dump_is_taken),
+        subject(every_truncation_is_refused),
+        subject(every_changed_byte_is_refused),
+        subject(impossible_values_are_refused_though_checksums_are_right),
+    };
+    return run_subjects("dumps", list);
+}
