@@ -81,6 +81,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 .PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .PHONY: size-gate slices baremetal
+.PHONY: targets travel refuse
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
@@ -227,6 +228,17 @@ msan:
 	$(Q)$(BUILD)/msan/golden >$(BUILD)/msan/golden.csv
 	$(Q)sed '/^\#/d' tests/golden.csv | diff - $(BUILD)/msan/golden.csv && echo "msan: $$(wc -l <$(BUILD)/msan/golden.csv) golden runs, no use of an unset byte, same hashes"
 
+# ---- other machines (port/targets.txt), those that this one has tools for ----
+
+targets:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/targets.sh $(TARGETS)
+# dumps written on one machine go on on another
+travel:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/travel.sh
+# builds and machines that break bits are refused, and what they would break is found and named
+refuse:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/refuse.sh
+
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
 bench:
@@ -267,6 +279,9 @@ help:
 	'make demo       a 2-D dam break: picture, dump and history (a C compiler and make are enough)' \
 	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
 	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
+	'make targets    the golden runs on every machine of port/targets.txt that has tools here  -> $(BUILD)/targets.csv' \
+	'make travel     dumps from one machine go on on another with the same bits' \
+	'make refuse     builds that break bits are refused; the first difference is named' \
 	'make bench      speed and memory, gcc and clang, native and portable      -> $(BUILD)/bench.csv' \
 	'make size       bytes of arena, code and stack; pairs and instructions     -> $(BUILD)/size.csv' \
 	'make size-gate  the same, against tests/results/size.csv with 3 % to spare' \

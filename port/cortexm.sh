@@ -5,7 +5,7 @@ metal_bits="-std=c11 -ffp-contract=off -fexcess-precision=fast -fno-math-errno -
 metal_warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion"
 
 metal_column() { # machine, column
-    cat port/targets.txt port/targets_cortexm.txt 2>/dev/null |
+    cat port/targets.txt |
         awk -F'|' -v n="$1" -v k="$2" '{m = $1; gsub(/ /, "", m); if (m == n) {v = $k; gsub(/^ +| +$/, "", v); print v; exit}}'
 }
 
