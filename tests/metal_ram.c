@@ -33,9 +33,7 @@ static sph_status make(sph_sim **sim, sph_report *why)
     cfg.sound_speed = 28;
     cfg.gravity[1] = -9.81;
     cfg.max_particles = PARTICLES;
-#ifdef SPH_WITH_ALL
     cfg.max_sets = 8; /* water, three walls, two corners */
-#endif
     cfg.on_leave = SPH_REMOVE;
     cfg.on_cross = SPH_PUT_BACK;
     for (int k = 0; k < 2; k++) {

@@ -30,6 +30,7 @@ typedef struct tally {
     uint64_t slices, worst, worst_ns, units, ns;
     uint64_t ns_units;                 /* units of the slice that took longest */
     uint64_t dearest;                  /* most ns/(units + FREE) of a slice */
+    uint32_t slab;                     /* most particles in a slab */
     uint32_t bin[BINS], bin_ns[BINS];
 } tally;
 
@@ -73,6 +74,18 @@ static void count(tally *t, uint64_t units, uint64_t ns)
     }
 }
 
+/* most particles in a layer of cells along the last axis */
+static uint32_t widest_slab(const sph_sim *sim)
+{
+    uint32_t most = 0;
+    for (uint32_t k = 0; k < sim->grid.slabs; k++) {
+        const uint32_t *cell = sim->cell + (size_t)k * sim->grid.slab_cells;
+        const uint32_t n = cell[sim->grid.slab_cells] - cell[0];
+        most = n > most ? n : most;
+    }
+    return most;
+}
+
 static bool arrived(const sph_sim *sim)
 {
     double back, front;
@@ -83,9 +96,14 @@ static bool arrived(const sph_sim *sim)
 static sph_status run(sph_sim *sim, uint64_t budget, tally *t)
 {
     uint64_t before = 0;
-    for (uint32_t steps = 0; steps < MOST_STEPS;) {
+    sph_status st = sph_ready(sim); /* the first sort of all cannot be sliced */
+    for (uint32_t steps = 0; !st && steps < MOST_STEPS;) {
+        if (!sim->begun) {
+            const uint32_t s = widest_slab(sim);
+            t->slab = s > t->slab ? s : t->slab;
+        }
         const uint64_t began = cortexm_clock(NULL);
-        const sph_status st = sph_step_slice(sim, budget);
+        st = sph_step_slice(sim, budget);
         const uint64_t took = cortexm_clock(NULL) - began, work = sim->work + sim->thread[0].work;
         if (st && st != SPH_NOT_DONE)
             return st;
@@ -94,8 +112,9 @@ static sph_status run(sph_sim *sim, uint64_t budget, tally *t)
         steps += st == SPH_OK;
         if (st == SPH_OK && arrived(sim))
             return SPH_OK;
+        st = SPH_OK;
     }
-    return SPH_STEP_COLLAPSED; /* the water did not arrive */
+    return st ? st : SPH_STEP_COLLAPSED; /* the water did not arrive */
 }
 
 static void show(const sph_sim *sim, uint64_t budget, const tally *t)
@@ -111,7 +130,7 @@ static void show(const sph_sim *sim, uint64_t budget, const tally *t)
     } row[] = {
         {"slices", t->slices}, {"steps", info.step}, {"particles", u.particles}, {"cell_particles", u.cell_particles},
         {"units", t->units}, {"worst_units", t->worst}, {"kernel_worst_units", u.slice_work},
-        {"extra", SPH_SLICE_EXTRA(1, u.particles, u.cell_particles)},
+        {"extra", SPH_SLICE_EXTRA(1, sim->grid.slabs, t->slab, sim->grid.slab_cells, u.cell_particles)},
         {"worst_step_units", u.step_work}, {"step_bound", SPH_STEP_WORK(SWEEPS, u.particles, u.cell_particles, u.cells)},
         {"kinstructions", t->ns / 1000}, {"worst_instructions", t->worst_ns}, {"worst_instructions_units", t->ns_units},
         {"dearest_unit", t->dearest},
