@@ -91,6 +91,8 @@ void cortexm_start(uint32_t period)
     SYST_CSR = 7; /* processor clock, interrupt, on */
 }
 
+void cortexm_stop(void) { SYST_CSR = 0; }
+
 uint32_t cortexm_ticks(void) { return ticks; }
 
 uint64_t cortexm_clocks(void)
@@ -115,19 +117,30 @@ void cortexm_wait(void) { __asm__ volatile("wfi" ::: "memory"); }
 
 /* ---- memory ---- */
 
+static uint32_t *stack_pointer(void)
+{
+    uint32_t *sp;
+    __asm__ volatile("mov %0, sp" : "=r"(sp));
+    return sp;
+}
+
 void cortexm_stack_paint(void)
 {
-    uint32_t *top = __builtin_frame_address(0);
-    for (volatile uint32_t *p = cortexm_stack_low; p + 16 < top; p++)
+    const volatile uint32_t *top = stack_pointer();
+    for (volatile uint32_t *p = cortexm_stack_low; p < top; p++)
         *p = PAINT;
 }
 
+/* must have no frame of its own */
+size_t cortexm_stack_here(void) { return (uintptr_t)cortexm_stack_high - (uintptr_t)stack_pointer(); }
+
 size_t cortexm_stack_used(void)
 {
-    const uint32_t *p = cortexm_stack_low;
-    while (p < cortexm_stack_high && *p == PAINT)
-        p++;
-    return (size_t)((uintptr_t)cortexm_stack_high - (uintptr_t)p);
+    const size_t words = cortexm_stack_bytes() / sizeof(uint32_t);
+    size_t clean = 0;
+    while (clean < words && cortexm_stack_low[clean] == PAINT)
+        clean++;
+    return (words - clean) * sizeof(uint32_t);
 }
 
 size_t cortexm_stack_bytes(void) { return (uintptr_t)cortexm_stack_high - (uintptr_t)cortexm_stack_low; }

@@ -16,6 +16,7 @@
 
 /* Starts SysTick: an interrupt every `period` processor clocks, 2 .. 2^24. Counts from 0. */
 void cortexm_start(uint32_t period);
+void cortexm_stop(void);       /* no more interrupts; the clock stands still */
 uint64_t cortexm_clocks(void); /* processor clocks since the start */
 uint32_t cortexm_ticks(void);  /* periods since the start */
 void cortexm_wait(void);       /* sleeps until the next interrupt */
@@ -27,6 +28,7 @@ uint64_t cortexm_clock(void *ctx);
 /* The stack was painted before main. How much of it was ever used, and how much there is (bytes). */
 size_t cortexm_stack_used(void);
 size_t cortexm_stack_bytes(void);
+size_t cortexm_stack_here(void); /* how much of it the caller and its callers hold */
 void cortexm_stack_paint(void); /* paints afresh what is not in use now */
 
 size_t cortexm_static_bytes(void); /* .data and .bss */
