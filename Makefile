@@ -78,7 +78,7 @@ build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests
+.PHONY: all examples demo test golden bits knobs bench size validate coverage lint help clean tests
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
@@ -144,6 +144,7 @@ builds_test_bits    := $(BUILDS)
 builds_test_fail    := 1d 2f 3f
 builds_test_entry   := 1f 2f 2d 3d
 builds_test_dumps   := $(BUILDS)
+builds_test_threads := 1d 2f 3f
 builds_test_faults  := 1d 2f 3f
 builds_test_api     := $(BUILDS)
 builds_test_walls   := $(BUILDS)
@@ -260,6 +261,10 @@ msan:
 	$(Q)$(BUILD)/msan/golden >$(BUILD)/msan/golden.csv
 	$(Q)sed '/^\#/d' tests/golden.csv | diff - $(BUILD)/msan/golden.csv && echo "msan: $$(wc -l <$(BUILD)/msan/golden.csv) golden runs, no use of an unset byte, same hashes"
 
+# every knob of sph/modules.h off alone, and random sets of them
+knobs:
+	$(Q)BUILD=$(BUILD) CC="$(GCC)" BITS="$(BITS) -fexcess-precision=fast" SIZE="$(SIZE)" sh tests/knobs.sh
+
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
 bench:
@@ -300,6 +305,7 @@ help:
 	'make demo       a 2-D dam break: picture, dump and history (a C compiler and make are enough)' \
 	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
 	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
+	'make knobs      every build knob off alone and in random sets: golden or refused -> $(BUILD)/knobs.csv' \
 	'make targets    the golden runs on every machine of port/targets.txt that has tools here  -> $(BUILD)/targets.csv' \
 	'make travel     dumps from one machine go on on another with the same bits' \
 	'make refuse     builds that break bits are refused; the first difference is named' \
