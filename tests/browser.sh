@@ -19,4 +19,8 @@ fi
 want=$(sed '/^#/d' $golden)
 page=$(node tests/browser.mjs "$CHROMIUM" "$BUILD/wasm/index.html" $n $degrees $m "$BUILD/browser") || exit 1
 printf 'browser:   %s\nmachine:   %s\ncommitted: %s\n' "$page" "$host" "$want"
-[ "$page" = "$host" ] && [ "$page" = "$want" ] && echo "browser: hashes equal"
+if [ "$page" != "$host" ] || [ "$page" != "$want" ]; then
+    echo "browser: hashes differ"
+    exit 1
+fi
+echo "browser: hashes equal"

@@ -25,7 +25,9 @@ int main(void)
     sph_report why;
     const sph_config c = case_config(&bits_cases[0]);
     flush_subnormals();
-    const sph_status st = sph_init(&sim, &c, arena, sizeof arena, &why);
+    sph_status st = sph_init(&sim, &c, arena, sizeof arena, &why);
+    if (!st)
+        st = case_build(sim, &bits_cases[0]);
     printf("%s\n", st == SPH_OK ? "ok" : st == SPH_ARITHMETIC ? why.what : sph_status_text(st));
     return 0;
 }
