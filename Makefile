@@ -78,10 +78,10 @@ build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all examples demo test golden bits bench size validate coverage lint help clean tests
-.PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
+.PHONY: all examples demo test golden bits knobs bench size validate coverage lint help clean tests
+.PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal
-.PHONY: targets travel refuse
+.PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
 .DEFAULT_GOAL := all
@@ -144,6 +144,7 @@ builds_test_bits    := $(BUILDS)
 builds_test_fail    := 1d 2f 3f
 builds_test_entry   := 1f 2f 2d 3d
 builds_test_dumps   := $(BUILDS)
+builds_test_threads := 1d 2f 3f
 builds_test_faults  := 1d 2f 3f
 builds_test_api     := $(BUILDS)
 builds_test_walls   := $(BUILDS)
@@ -180,6 +181,38 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 
 bits:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
+
+# ---- other machines (port/targets.txt), those that this one has tools for ----
+
+targets:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/targets.sh $(TARGETS)
+# dumps written on one machine go on on another
+travel:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/travel.sh
+# builds and machines that break bits are refused, and what they would break is found and named
+refuse:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/refuse.sh
+
+# ---- the page of examples/wasm in $(BUILD)/wasm: plain files that open without a server ----
+
+WASM_CC ?= clang --target=wasm32-unknown-unknown
+wasm: $(BUILD)/wasm/tank.wasm.js $(patsubst examples/wasm/%,$(BUILD)/wasm/%,$(wildcard examples/wasm/*.html examples/wasm/*.css examples/wasm/app.js))
+$(BUILD)/wasm/%: examples/wasm/%
+	@mkdir -p $(@D)
+	$(Q)cp $< $@
+$(BUILD)/wasm/tank.wasm: examples/wasm/tank.c examples/wasm/tank.h port/wasm/memory.c port/wasm/string.h $(KERNEL) $(wildcard sph/*.h)
+	$(say) wasm $@
+	@mkdir -p $(@D)
+	$(Q)$(WASM_CC) $(BITS) -O2 -msimd128 -mbulk-memory $(WARN) -Wno-pass-failed -nostdlib -Iport/wasm \
+		-Wl,--no-entry,--strip-all $(filter %.c,$^) -o $@
+$(BUILD)/wasm/tank.wasm.js: $(BUILD)/wasm/tank.wasm
+	$(Q)printf 'const TANK_WASM = "%s";\n' "$$(base64 <$< | tr -d '\n')" >$@
+$(BUILD)/tank_host: $(BUILD)/obj/2f/tests/tank_host.o $(BUILD)/obj/2f/examples/wasm/tank.o $(BUILD)/libsph2f.a
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+# that page in a headless browser: its hash is this machine's, its controls do what they say
+browser: wasm $(BUILD)/tank_host
+	$(Q)BUILD=$(BUILD) sh tests/browser.sh
 
 # ---- fuzzing: each target takes a string of bytes; its first byte chooses the build (tests/fuzz/entry.c) ----
 
@@ -228,16 +261,9 @@ msan:
 	$(Q)$(BUILD)/msan/golden >$(BUILD)/msan/golden.csv
 	$(Q)sed '/^\#/d' tests/golden.csv | diff - $(BUILD)/msan/golden.csv && echo "msan: $$(wc -l <$(BUILD)/msan/golden.csv) golden runs, no use of an unset byte, same hashes"
 
-# ---- other machines (port/targets.txt), those that this one has tools for ----
-
-targets:
-	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/targets.sh $(TARGETS)
-# dumps written on one machine go on on another
-travel:
-	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/travel.sh
-# builds and machines that break bits are refused, and what they would break is found and named
-refuse:
-	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/refuse.sh
+# every knob of sph/modules.h off alone, and random sets of them
+knobs:
+	$(Q)BUILD=$(BUILD) CC="$(GCC)" BITS="$(BITS) -fexcess-precision=fast" SIZE="$(SIZE)" sh tests/knobs.sh
 
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
@@ -279,9 +305,12 @@ help:
 	'make demo       a 2-D dam break: picture, dump and history (a C compiler and make are enough)' \
 	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
 	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
+	'make knobs      every build knob off alone and in random sets: golden or refused -> $(BUILD)/knobs.csv' \
 	'make targets    the golden runs on every machine of port/targets.txt that has tools here  -> $(BUILD)/targets.csv' \
 	'make travel     dumps from one machine go on on another with the same bits' \
 	'make refuse     builds that break bits are refused; the first difference is named' \
+	'make wasm       a page with a tank to tilt: open $(BUILD)/wasm/index.html' \
+	'make browser    that page in headless Chromium: hash, controls, picture' \
 	'make bench      speed and memory, gcc and clang, native and portable      -> $(BUILD)/bench.csv' \
 	'make size       bytes of arena, code and stack; pairs and instructions     -> $(BUILD)/size.csv' \
 	'make size-gate  the same, against tests/results/size.csv with 3 % to spare' \

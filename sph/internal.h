@@ -207,19 +207,7 @@ struct sph_pass {
      SPH_WITH_WALL_MONAGHAN_KOS << SPH_WALL_MONAGHAN_KOS | SPH_WITH_WALL_GHOST << SPH_WALL_GHOST |          \
      SPH_WITH_WALL_ADAMI << SPH_WALL_ADAMI)
 
-/* modules that share code */
-#define SPH_HAS_FORCE_WALLS (SPH_WITH_WALL_LENNARD_JONES || SPH_WITH_WALL_KERNEL_FORCE || SPH_WITH_WALL_MONAGHAN_KOS)
-#define SPH_HAS_LAYERED_WALLS (SPH_WITH_WALL_GHOST || SPH_WITH_WALL_ADAMI)
-#define SPH_HAS_WALLS (SPH_HAS_FORCE_WALLS || SPH_HAS_LAYERED_WALLS)
-#define SPH_HAS_MIRRORS (SPH_WITH_SYMMETRY || SPH_WITH_MIRROR_NO_SLIP)
-#define SPH_HAS_IMAGES (SPH_WITH_PERIODIC || SPH_HAS_MIRRORS)
-#define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
-#define SPH_HAS_FILTERS (SPH_WITH_SHEPARD || SPH_WITH_SUMMATION)
-#define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */
-#define SPH_HAS_RUNGE_KUTTA (SPH_WITH_RUNGE_KUTTA || SPH_WITH_RUNGE_KUTTA_MOMENTUM)
-#define SPH_HAS_RATES_FIRST (SPH_WITH_KICK_DRIFT_KICK || SPH_WITH_LEAP_FROG) /* a sweep for the density of its own */
-
-_Static_assert(SPH_KERNELS_IN && SPH_SCHEMES_IN && SPH_EOSES_IN && SPH_INTEGRATORS_IN,
+_Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 && SPH_INTEGRATORS_IN != 0,
                "modules.h: at least one smoothing kernel, scheme, equation of state and integrator must be in");
 
 SPH_INLINE bool sph_in(uint32_t mask, uint32_t choice) { return choice < 32 && mask >> choice & 1; }

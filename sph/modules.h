@@ -180,6 +180,18 @@
 #define SPH_WITH_RESTORE SPH_WITH_ALL
 #endif
 
+/* modules that share code */
+#define SPH_HAS_FORCE_WALLS (SPH_WITH_WALL_LENNARD_JONES || SPH_WITH_WALL_KERNEL_FORCE || SPH_WITH_WALL_MONAGHAN_KOS)
+#define SPH_HAS_LAYERED_WALLS (SPH_WITH_WALL_GHOST || SPH_WITH_WALL_ADAMI)
+#define SPH_HAS_WALLS (SPH_HAS_FORCE_WALLS || SPH_HAS_LAYERED_WALLS)
+#define SPH_HAS_MIRRORS (SPH_WITH_SYMMETRY || SPH_WITH_MIRROR_NO_SLIP)
+#define SPH_HAS_IMAGES (SPH_WITH_PERIODIC || SPH_HAS_MIRRORS)
+#define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
+#define SPH_HAS_FILTERS (SPH_WITH_SHEPARD || SPH_WITH_SUMMATION)
+#define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */
+#define SPH_HAS_RUNGE_KUTTA (SPH_WITH_RUNGE_KUTTA || SPH_WITH_RUNGE_KUTTA_MOMENTUM)
+#define SPH_HAS_RATES_FIRST (SPH_WITH_KICK_DRIFT_KICK || SPH_WITH_LEAP_FROG) /* a sweep for the density of its own */
+
 /* true if `choice` is SPH_<name> and that was compiled in: how the kernel asks for a choice everywhere */
 #define SPH_IS(choice, name) (SPH_WITH_##name && (choice) == SPH_##name)
 

@@ -193,7 +193,7 @@ sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const d
 }
 
 /* a lattice must begin and end within a domain's length of the domain: its points are all looked at, one by one */
-static bool near_domain(const sph_sim *sim, int k, double lo, double hi)
+static __attribute__((noinline)) bool near_domain(const sph_sim *sim, int k, double lo, double hi)
 {
     return lo >= sim->cfg.lo[k] - sim->grid.length[k] && hi <= sim->cfg.hi[k] + sim->grid.length[k];
 }
@@ -528,6 +528,13 @@ static sph_set *new_wall_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
     return s;
 }
 
+/* no further than a domain's length outside: nothing is found there, and integers stay small */
+static __attribute__((noinline)) sph_pos bounded_quanta(const sph_sim *sim, int k, double x)
+{
+    const double far = sim->grid.length[k];
+    return to_quanta(sim, x < -far ? -far : x > 2 * far ? 2 * far : x);
+}
+
 /* the box in quanta around the region behind a face */
 static void bound_region(sph_sim *sim, sph_set *s)
 {
@@ -542,10 +549,8 @@ static void bound_region(sph_sim *sim, sph_set *s)
         reach[2] = s->half[1] * sph_abs(t2);
 #endif
         double r = reach[0] + reach[1] + reach[2];
-        /* no further than a domain's length outside: nothing is found there, and integers stay small */
-        const double low = s->origin[k] - r, high = s->origin[k] + r, far = sim->grid.length[k];
-        s->low[k] = low > -far ? low < 2 * far ? to_quanta(sim, low) - 1 : 2 * sim->grid.extent[k] - 1 : -sim->grid.extent[k];
-        s->high[k] = high > -far ? high < 2 * far ? to_quanta(sim, high) + 1 : 2 * sim->grid.extent[k] - 1 : -sim->grid.extent[k];
+        s->low[k] = bounded_quanta(sim, k, s->origin[k] - r) - 1;
+        s->high[k] = bounded_quanta(sim, k, s->origin[k] + r) + 1;
     }
 }
 

@@ -258,7 +258,7 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
 }
 
 /* a place of axis k from which a move of one cell still fits into an integer: at most about a domain's length outside */
-static sph_pos near_quanta(const sph_sim *sim, int k, int64_t q)
+static __attribute__((noinline)) sph_pos near_quanta(const sph_sim *sim, int k, int64_t q)
 {
     const sph_pos low = -sim->grid.extent[k], high = 2 * sim->grid.extent[k] - sim->grid.cell_size[k] - 1;
     return q < low ? low : q > high ? high : (sph_pos)q;
@@ -270,9 +270,7 @@ static void put_back(sph_sim *sim, const sph_buffer *b, uint32_t i, const sph_se
 {
     double vn = 0, off = depth + SPH_PUT_BACK_SPACINGS * sim->cfg.spacing;
     for (int k = 0; k < SPH_DIM; k++) {
-        const double most = 4 * (double)sim->grid.extent[k];
-        double q = off * s->normal[k] / sim->grid.quantum;
-        q = q < -most ? -most : q > most ? most : q;
+        const double q = off * s->normal[k] / sim->grid.quantum; /* a wall is at most 64 spacings thick: fits */
         b->pos[k][i] = near_quanta(sim, k, b->pos[k][i] + (int64_t)(q < 0 ? q - 0.5 : q + 0.5));
         vn += ((double)b->vel[k][i] - sph_wall_velocity(sim, s, (uint32_t)k)) * s->normal[k];
     }
@@ -316,8 +314,8 @@ void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
         /* one loop a wall over integers: compilers make vectors of it */
         sph_pos lo[SPH_DIM], hi[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
-            lo[k] = near_quanta(sim, k, (int64_t)s->low[k] + sph_wall_moved(sim, s, (uint32_t)k));
-            hi[k] = near_quanta(sim, k, (int64_t)s->high[k] + sph_wall_moved(sim, s, (uint32_t)k));
+            lo[k] = SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, (int64_t)s->low[k] + sph_wall_moved(sim, s, (uint32_t)k)) : s->low[k];
+            hi[k] = SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, (int64_t)s->high[k] + sph_wall_moved(sim, s, (uint32_t)k)) : s->high[k];
         }
         for (uint32_t i = first; i < last; i++) {
             int in = 1;

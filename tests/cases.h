@@ -160,6 +160,7 @@ static sph_status case_water(sph_sim *sim, uint32_t set)
 
 static sph_status case_walls(sph_sim *sim, const bits_case *b)
 {
+#if SPH_HAS_WALLS
     sph_wall w = sph_wall_default();
     double lo[SPH_DIM], hi[SPH_DIM];
     uint32_t faces = 0, group;
@@ -182,6 +183,10 @@ static sph_status case_walls(sph_sim *sim, const bits_case *b)
     return st || !b->gate ? st : sph_remove_wall_at(sim, group, 3e-3);
 #else
     return st || !b->gate ? st : SPH_BAD_ARGUMENT;
+#endif
+#else
+    (void)sim, (void)b;
+    return SPH_BAD_ARGUMENT;
 #endif
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* golden_one.c: the golden runs of one build, as a program for machines that hold one build at a time (targets.sh, knobs.sh). */
-#include "sph/name.h"
+/* golden_one.c: the golden runs of one build alone (tests/knobs.sh, tests/targets.sh). */
+#include "sph/sph.h"
 
 int SPH_NAME(golden)(void);
-
 int main(void) { return SPH_NAME(golden)() ? 1 : 0; }

@@ -106,6 +106,49 @@ static void every_number_out_of_range_names_its_field(void **state)
     BAD(max_threads, 257);
 }
 
+/* what a choice adds to the arena of base(), whole arrays of sz elements of `bytes`, rounded up as the layout does */
+static size_t array_bytes(size_t bytes) { return ((base().max_particles + 48u) * bytes + 63) / 64 * 64; }
+
+#define ADDS(field, value, bytes)                                                                           \
+    do {                                                                                                    \
+        sph_config c_ = base();                                                                             \
+        const size_t before_ = sph_arena_bytes(&c_);                                                        \
+        c_.field = (value);                                                                                 \
+        assert_true(before_ > 0);                                                                           \
+        assert_int_equal(sph_arena_bytes(&c_) - before_, (bytes));                                          \
+    } while (0)
+
+static void a_module_that_is_not_chosen_adds_nothing_to_the_arena(void **state)
+{
+    const size_t real = array_bytes(sizeof(sph_real)), sums = (base().max_particles / 256 + 1) * 4 * sizeof(double);
+    const size_t one_state = 2 * SPH_DIM * real + 2 * real + SPH_DIM * real + array_bytes(4) + array_bytes(1);
+    (void)state;
+    /* choices that are arithmetic only */
+    ADDS(kernel, SPH_CUBIC, 0); /* the same support, so the same cells */
+    ADDS(kernel, SPH_WENDLAND_C4, 0);
+    for (uint32_t k = 0; k < SPH_SCHEMES; k++)
+        ADDS(scheme, k, 0);
+    for (uint32_t k = 0; k < SPH_EOSES; k++)
+        ADDS(eos, k, 0);
+    for (uint32_t k = 0; k < SPH_DIFFUSIONS; k++)
+        ADDS(diffusion, k, 0);
+    ADDS(viscosity, SPH_INVISCID, 0);
+    ADDS(viscosity, SPH_ARTIFICIAL_APPROACHING, 0);
+    ADDS(pressure_floor, true, 0);
+    ADDS(integrator, SPH_KICK_DRIFT_KICK, 0);
+    ADDS(integrator, SPH_LEAP_FROG, 0);
+    ADDS(face[0][0], SPH_SYMMETRY, 0);
+    ADDS(face[0][1], SPH_MIRROR_NO_SLIP, 0);
+    ADDS(damping, 0.9, 0);
+    /* choices that keep something: exactly that */
+    ADDS(xsph, 0.5, 2 * SPH_DIM * real);
+    ADDS(shepard_every, 10, real);
+    ADDS(density, SPH_SUMMATION, real);
+    ADDS(integrator, SPH_RUNGE_KUTTA, one_state);
+    ADDS(integrator, SPH_RUNGE_KUTTA_MOMENTUM, one_state);
+    ADDS(books, true, 4 * real + (sums + 63) / 64 * 64);
+}
+
 static void every_choice_out_of_range_names_its_field(void **state)
 {
     (void)state;
@@ -634,6 +677,7 @@ int main(void)
     const struct CMUnitTest list[] = {
         subject(every_number_out_of_range_names_its_field),
         subject(every_choice_out_of_range_names_its_field),
+        subject(a_module_that_is_not_chosen_adds_nothing_to_the_arena),
         subject(the_domain_is_checked),
         subject(a_small_or_crooked_arena_is_refused_untouched),
         subject(the_constant_bound_holds_and_is_close),

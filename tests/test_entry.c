@@ -496,7 +496,7 @@ static void row_add_wall_box(void)
     EACH_NUMBER(x) {
         w.strength = x;
         attempt(sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0), true, OUT(uint32_t)));
-        if (!(x >= 0 && x < 1e30))
+        if (!(x >= 0 && x <= 1e30))
             refused(sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0), true, OUT(uint32_t)));
         w.strength = 0;
         for (int k = 0; k < SPH_DIM; k++)

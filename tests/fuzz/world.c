@@ -91,6 +91,7 @@ static void step(world *w, uint64_t budget)
     keep_state(w->sim, &s);
     sph_get_totals(w->sim, &t);
     const uint32_t n = sph_count(w->sim);
+    w->sim->mark_slice = 0;
     if (budget == 0)
         st = sph_step(w->sim);
     for (uint32_t k = 0; budget > 0; k++) {
@@ -102,6 +103,7 @@ static void step(world *w, uint64_t budget)
     hold((unsigned)st < SPH_STATUS_COUNT && st != SPH_NOT_DONE);
     if (st == SPH_OK) {
         free(s.arrays);
+        hold(budget == 0 || w->sim->mark_slice <= most_slice(w->sim, n, budget));
         check_step(w, t.mass + t.removed_mass, n);
     } else {
         hold(state_kept(w->sim, &s) && sph_last(w->sim)->status == st && sph_time(w->sim) == s.now.time);
