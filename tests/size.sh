@@ -7,8 +7,9 @@
 set -u
 BUILD=${BUILD:-build} CC=${CC:-cc} SIZE=${SIZE:-size} MAKE=${MAKE:-make} PYTHON=${PYTHON:-python3} ARM_SIZE=${ARM_SIZE:-arm-none-eabi-size}
 BITS=${BITS:--std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math}
-# knobs of a kernel with nothing but water in it (sph/modules.h); empty: no row
-WATER_ONLY=${WATER_ONLY:-}
+# knobs of a kernel with nothing but water in it (sph/modules.h)
+w=-DSPH_WITH_
+WATER_ONLY=${WATER_ONLY:-${w}ALL=0 ${w}WENDLAND_C2=1 ${w}STANDARD=1 ${w}TAIT=1 ${w}ARTIFICIAL=1 ${w}PREDICTOR_CORRECTOR=1}
 CODE_LIMIT=65536 WATER_LIMIT=24576 STACK_LIMIT=2048 HOST_STACK_LIMIT=8192
 out=$BUILD/size.csv dir=$BUILD/size stacks=$BUILD/stack.csv committed=tests/results/size.csv
 
@@ -96,16 +97,12 @@ for b in 1f 1d 2f 2d 3f 3d; do
     host_scenes $b || bad=1
 done
 if metal_machine cortex-m4f; then
-    arm="-Os -fcallgraph-info=su -fexcess-precision=fast -DSPH_WITH_FAST_PATHS=0"
-    measure m4f "$metal_cc" "$ARM_SIZE" "$arm" 2f $CODE_LIMIT $STACK_LIMIT || bad=1
+    arm="-Os -fcallgraph-info=su -fexcess-precision=fast"
+    measure m4f "$metal_cc" "$ARM_SIZE" "$arm -DSPH_WITH_FAST_PATHS=0" 2f $CODE_LIMIT $STACK_LIMIT || bad=1
     for b in 1f 2d 3f; do
-        measure m4f "$metal_cc" "$ARM_SIZE" "$arm" $b "" "" || bad=1
+        measure m4f "$metal_cc" "$ARM_SIZE" "$arm -DSPH_WITH_FAST_PATHS=0" $b "" $STACK_LIMIT || bad=1
     done
-    if [ -n "$WATER_ONLY" ]; then
-        measure m4f_water_only "$metal_cc" "$ARM_SIZE" "$arm $WATER_ONLY" 2f $WATER_LIMIT $STACK_LIMIT || bad=1
-    else
-        echo "  no row for a kernel of water only: WATER_ONLY is empty" >&2
-    fi
+    measure m4f_water_only "$metal_cc" "$ARM_SIZE" "$arm $WATER_ONLY" 2f $WATER_LIMIT $STACK_LIMIT || bad=1
     for b in 1f 2f 3f; do
         METAL_CFLAGS='' metal_scenes $b -O2 m4f_O2 || bad=1
         METAL_CFLAGS=-DSPH_WITH_FAST_PATHS=0 metal_scenes $b -Os m4f_Os && painted $b || bad=1
