@@ -208,6 +208,11 @@ static void agree(const sph_config *c)
 static void row_config_check(void)
 {
     sph_report r;
+    shuffle order;
+    sph_config many = bed.cfg;
+    many.port = shuffle_port(&order, bed.cfg.max_threads + 1); /* more threads than scratch */
+    assert_int_equal(sph_config_check(&many, &r), SPH_BAD_CONFIG);
+    assert_string_equal(r.what, "port.threads");
     assert_int_equal(sph_config_check(NULL, &r), SPH_BAD_CONFIG);
     for (uint32_t i = 0; i < NUMBERS; i++)
         EACH_NUMBER(x) {

@@ -105,12 +105,12 @@ static UNUSED uint64_t most_work(const sph_sim *sim, uint64_t n)
     return e * (block * sim->mark_cell * n + sim->grid.cells + 32) + 16 * n + 4 * (uint64_t)sim->grid.cells;
 }
 
-/* the bound on a slice, with every particle in one slab */
-static UNUSED uint64_t most_slice(const sph_sim *sim, uint64_t n, uint64_t budget)
+/* the bound on a slice, with every particle in one slab; sorted: the table of cells was good when the step began */
+static UNUSED uint64_t most_slice(const sph_sim *sim, uint64_t n, uint64_t budget, bool sorted)
 {
     const uint64_t block = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27, threads = sim->cfg.port.parallel ? 2 : 1;
     const uint64_t slabs = (sim->grid.slabs + 63) / 64, k = slabs > 3 ? slabs : 3, c = sim->mark_cell;
-    const uint64_t cell = block * c * c + 1, sort = (k + 2) * n + k * sim->grid.slab_cells;
+    const uint64_t cell = block * c * c + 1, sort = sorted ? (k + 2) * n + k * sim->grid.slab_cells : n + sim->grid.cells;
     const uint64_t most = cell > sort ? cell : sort;
     return budget + threads * (most > 256 ? most : 256);
 }

@@ -91,6 +91,7 @@ static void step(world *w, uint64_t budget)
     keep_state(w->sim, &s);
     sph_get_totals(w->sim, &t);
     const uint32_t n = sph_count(w->sim);
+    const bool sorted = w->sim->table_valid;
     w->sim->mark_slice = 0;
     if (budget == 0)
         st = sph_step(w->sim);
@@ -103,7 +104,7 @@ static void step(world *w, uint64_t budget)
     hold((unsigned)st < SPH_STATUS_COUNT && st != SPH_NOT_DONE);
     if (st == SPH_OK) {
         free(s.arrays);
-        hold(budget == 0 || w->sim->mark_slice <= most_slice(w->sim, n, budget));
+        hold(budget == 0 || w->sim->mark_slice <= most_slice(w->sim, n, budget, sorted));
         check_step(w, t.mass + t.removed_mass, n);
     } else {
         hold(state_kept(w->sim, &s) && sph_last(w->sim)->status == st && sph_time(w->sim) == s.now.time);
