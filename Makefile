@@ -17,7 +17,6 @@ NM      ?= nm
 GCOV    ?= gcov
 OBJDUMP ?= objdump
 PYTHON  ?= python3
-ARM_CC  ?= arm-none-eabi-gcc
 ARM_SIZE ?= arm-none-eabi-size
 CPPCHECK ?= cppcheck
 CLANG_TIDY ?= clang-tidy
@@ -66,7 +65,7 @@ double = $(if $(filter %d,$(1)),1,0)
 defines = -DSPH_DIM=$(call dim,$(1)) -DSPH_DOUBLE=$(call double,$(1))
 
 KERNEL := $(wildcard sph/*.c)
-PORT   := $(filter-out $(wildcard port/*_bare*.c),$(wildcard port/*.c))
+PORT   := port/posix.c
 SCENES := $(wildcard examples/scenes/*.c)
 PROGS  := $(wildcard examples/*.c)
 TOOLS  := $(filter-out tools/build.c,$(wildcard tools/*.c))
@@ -80,6 +79,8 @@ scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate coverage lint help clean tests
+.PHONY: targets travel refuse wasm browser
+.PHONY: size-gate slices baremetal
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -181,6 +182,38 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 bits:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
 
+# ---- other machines (port/targets.txt), those that this one has tools for ----
+
+targets:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/targets.sh $(TARGETS)
+# dumps written on one machine go on on another
+travel:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/travel.sh
+# builds and machines that break bits are refused, and what they would break is found and named
+refuse:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/refuse.sh
+
+# ---- the page of examples/wasm in $(BUILD)/wasm: plain files that open without a server ----
+
+WASM_CC ?= clang --target=wasm32-unknown-unknown
+wasm: $(BUILD)/wasm/tank.wasm.js $(patsubst examples/wasm/%,$(BUILD)/wasm/%,$(wildcard examples/wasm/*.html examples/wasm/*.css examples/wasm/app.js))
+$(BUILD)/wasm/%: examples/wasm/%
+	@mkdir -p $(@D)
+	$(Q)cp $< $@
+$(BUILD)/wasm/tank.wasm: examples/wasm/tank.c examples/wasm/tank.h port/wasm/memory.c port/wasm/string.h $(KERNEL) $(wildcard sph/*.h)
+	$(say) wasm $@
+	@mkdir -p $(@D)
+	$(Q)$(WASM_CC) $(BITS) -O2 -msimd128 -mbulk-memory $(WARN) -Wno-pass-failed -nostdlib -Iport/wasm \
+		-Wl,--no-entry,--strip-all $(filter %.c,$^) -o $@
+$(BUILD)/wasm/tank.wasm.js: $(BUILD)/wasm/tank.wasm
+	$(Q)printf 'const TANK_WASM = "%s";\n' "$$(base64 <$< | tr -d '\n')" >$@
+$(BUILD)/tank_host: $(BUILD)/obj/2f/tests/tank_host.o $(BUILD)/obj/2f/examples/wasm/tank.o $(BUILD)/libsph2f.a
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+# that page in a headless browser: its hash is this machine's, its controls do what they say
+browser: wasm $(BUILD)/tank_host
+	$(Q)BUILD=$(BUILD) sh tests/browser.sh
+
 # ---- fuzzing: each target takes a string of bytes; its first byte chooses the build (tests/fuzz/entry.c) ----
 
 FUZZ_TARGETS := config particles walls dumps
@@ -238,7 +271,17 @@ bench:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" BITS="$(BITS)" sh tests/bench.sh
 
 size: $(LIBS) $(if $(wildcard examples/scenes/scenes.c),$(BUILD)/size_arena)
-	$(Q)BUILD=$(BUILD) CC="$(CC)" SIZE="$(SIZE)" BITS="$(BITS_CC)" ARM_CC="$(ARM_CC)" ARM_SIZE="$(ARM_SIZE)" sh tests/size.sh
+	$(Q)BUILD=$(BUILD) CC="$(CC)" SIZE="$(SIZE)" BITS="$(BITS_CC)" ARM_SIZE="$(ARM_SIZE)" MAKE="$(MAKE)" PYTHON="$(PYTHON)" sh tests/size.sh
+
+size-gate: size
+	$(Q)BUILD=$(BUILD) sh tests/size.sh --gate
+
+# in an emulated Cortex-M4F, which counts instructions
+slices:
+	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/slices.sh
+
+baremetal:
+	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/baremetal.sh
 
 $(BUILD)/size_arena: $(BUILD)/obj/tests/size_main.o $(BUILDS:%=$(BUILD)/obj/%/tests/size_arena.o) $(scene_obj) $(LIBS)
 	$(say) link $@
@@ -263,8 +306,16 @@ help:
 	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
 	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
 	'make knobs      every build knob off alone and in random sets: golden or refused -> $(BUILD)/knobs.csv' \
+	'make targets    the golden runs on every machine of port/targets.txt that has tools here  -> $(BUILD)/targets.csv' \
+	'make travel     dumps from one machine go on on another with the same bits' \
+	'make refuse     builds that break bits are refused; the first difference is named' \
+	'make wasm       a page with a tank to tilt: open $(BUILD)/wasm/index.html' \
+	'make browser    that page in headless Chromium: hash, controls, picture' \
 	'make bench      speed and memory, gcc and clang, native and portable      -> $(BUILD)/bench.csv' \
-	'make size       bytes of arena, code, constants and stack                 -> $(BUILD)/size.csv' \
+	'make size       bytes of arena, code and stack; pairs and instructions     -> $(BUILD)/size.csv' \
+	'make size-gate  the same, against tests/results/size.csv with 3 % to spare' \
+	'make slices     the longest slice on an emulated Cortex-M4F               -> $(BUILD)/slices.csv' \
+	'make baremetal  a tank at a fixed rate and a dam break in 192 KiB, on the same -> $(BUILD)/baremetal.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
 	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
 	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
@@ -272,4 +323,4 @@ help:
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck and clang-tidy, those that are installed' \
 	'make clean      removes $(BUILD)' \
-	'Variables: CC OPT CFLAGS LDFLAGS AR SIZE NM GCC CLANG ARM_CC BUILD EXEC; V=1 shows every command.'
+	'Variables: CC OPT CFLAGS LDFLAGS AR SIZE NM GCC CLANG BUILD EXEC; V=1 shows every command.'

@@ -190,6 +190,15 @@ static void put_text(unsigned char *p, const char *s, uint32_t room)
         p[i] = *s ? (unsigned char)*s++ : 0;
 }
 
+/* memcmp is not among the functions that the kernel asks of a machine */
+static bool same_bytes(const unsigned char *a, const unsigned char *b, uint32_t n)
+{
+    uint32_t i = 0;
+    while (i < n && a[i] == b[i])
+        i++;
+    return i == n;
+}
+
 static uint32_t code_bytes(uint32_t code) { return code == U8 ? 1 : code == U32 || code == I32 || code == F32 ? 4 : 8; }
 
 typedef struct refusal {
@@ -270,7 +279,7 @@ static bool move_header(stream *s, const char *name, const char *unit, uint32_t 
         return false;
     if (s->source && crc32(0, s->piece, 60) != get_number(s->piece + 60, 4))
         return refuse(s, SPH_DUMP_CORRUPT, name, "a header with the right checksum", s->sections);
-    if (s->source && memcmp(s->piece, h, DUMP_HEADER) != 0)
+    if (s->source && !same_bytes(s->piece, h, DUMP_HEADER))
         return refuse(s, SPH_DUMP_CORRUPT, name, "this section, of this size, in this place", s->sections);
     chain(s, (uint32_t)get_number(h + 60, 4));
     s->crc = 0;
@@ -321,7 +330,7 @@ static bool read_preamble(stream *s, uint64_t *bytes, uint64_t *sections)
     if (!move_piece(s, DUMP_PREAMBLE))
         return false;
     const uint32_t crc = (uint32_t)get_number(p + 28, 4), version = (uint32_t)get_number(p + 8, 4);
-    if (memcmp(p, magic, sizeof magic) != 0)
+    if (!same_bytes(p, magic, sizeof magic))
         return refuse(s, SPH_DUMP_FOREIGN, "magic", "the first eight bytes of a dump", p[0]);
     if (crc32(0, p, 28) != crc)
         return refuse(s, SPH_DUMP_CORRUPT, "preamble", "the right checksum", 0);
@@ -431,7 +440,7 @@ static bool move_fields(stream *s, const record *r)
         memcpy(s->piece, d, DUMP_FIELD);
         if (!move_payload(s, DUMP_FIELD))
             return false;
-        if (s->source && memcmp(s->piece, d, DUMP_FIELD) != 0)
+        if (s->source && !same_bytes(s->piece, d, DUMP_FIELD))
             refuse_later(s, SPH_DUMP_CORRUPT, r->fields[f].name, "this field in this place of its record", f);
     }
     return true;

@@ -440,6 +440,14 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
    Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
+/* Both bounds as numbers: what the last chunks may add to a budget, and a whole step of `sweeps` (E) sweeps. */
+#define SPH_MAX_(a, b) ((a) > (b) ? (a) : (b))
+#define SPH_AROUND_(c) ((SPH_DIM == 1 ? 3u : SPH_DIM == 2 ? 9u : 27u) * (uint64_t)(c))
+#define SPH_RANGE_(slabs) (uint64_t) SPH_MAX_(3u, ((slabs) + 63u) / 64u)
+#define SPH_SLICE_EXTRA(threads, slabs, s, b, c)                                                            \
+    ((threads) * SPH_MAX_(SPH_MAX_(SPH_AROUND_(c) * (c) + 1u, (SPH_RANGE_(slabs) + 2u) * (s) + SPH_RANGE_(slabs) * (b)), 256u))
+#define SPH_STEP_WORK(sweeps, n, c, cells)                                                                  \
+    ((sweeps) * (SPH_AROUND_(c) * (n) + (cells) + 32u) + 16u * (uint64_t)(n) + 4u * (uint64_t)(cells))
 /* Gives up a step that was begun in slices. */
 #define sph_step_cancel SPH_NAME(step_cancel)
 void sph_step_cancel(sph_sim *sim);

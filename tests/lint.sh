@@ -7,7 +7,8 @@ BUILD=${BUILD:-build} CPPCHECK=${CPPCHECK:-cppcheck} CLANG_TIDY=${CLANG_TIDY:-cl
 mkdir -p "$BUILD"
 inc="-I. -Isph -Iport -Iexamples -Iexamples/scenes -Itools -Itests"
 files=$(ls sph/*.c port/*.c examples/scenes/*.c tools/*.c 2>/dev/null)
-plane=$(ls examples/*.c 2>/dev/null) # programs of the 2-D build
+plane=$(ls examples/*.c examples/baremetal/*.c 2>/dev/null) # programs of the 2-D build
+metal=port/cortexm.c # for another processor
 found=0 bad=0
 for tool in "$CPPCHECK" "$CLANG_TIDY"; do
     command -v "$tool" >/dev/null 2>&1 || echo "lint: no ${tool}; as root: apt-get install -y --no-install-recommends $tool"
@@ -25,11 +26,21 @@ if command -v "$CLANG_TIDY" >/dev/null 2>&1; then
     found=1
     for b in "2 0" "3 1"; do
         for f in $files $([ "${b% *}" = 2 ] && echo "$plane"); do
+            [ "$f" = $metal ] && continue
             # shellcheck disable=SC2086
             "$CLANG_TIDY" --quiet "$f" -- -std=c11 -ffp-contract=off -D_POSIX_C_SOURCE=200809L $inc \
                 -DSPH_DIM=${b% *} -DSPH_DOUBLE=${b#* } 2>"$BUILD/tidy.err" || { cat "$BUILD/tidy.err"; bad=1; }
         done
     done
+fi
+if command -v "$CLANG_TIDY" >/dev/null 2>&1; then
+    headers=$(arm-none-eabi-gcc --specs=picolibc.specs -E -v -x c /dev/null 2>&1 | grep -m1 '^ /[^ ]*picolibc[^ ]*$')
+    if [ -n "$headers" ]; then
+        "$CLANG_TIDY" --quiet $metal -- --target=arm-none-eabi -mcpu=cortex-m4 -mthumb -std=c11 -isystem "${headers# }" \
+            2>"$BUILD/tidy.err" || { cat "$BUILD/tidy.err"; bad=1; }
+    else
+        echo "lint: no picolibc-arm-none-eabi: clang-tidy leaves $metal out"
+    fi
 fi
 [ $found = 1 ] || exit 1
 [ $bad = 0 ] && echo "lint: clean"

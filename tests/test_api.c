@@ -677,6 +677,7 @@ int main(void)
     const struct CMUnitTest list[] = {
         subject(every_number_out_of_range_names_its_field),
         subject(every_choice_out_of_range_names_its_field),
+        subject(a_module_that_is_not_chosen_adds_nothing_to_the_arena),
         subject(the_domain_is_checked),
         subject(a_small_or_crooked_arena_is_refused_untouched),
         subject(the_constant_bound_holds_and_is_close),
