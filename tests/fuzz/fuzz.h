@@ -94,25 +94,21 @@ static UNUSED sph_sim *fuzz_init(const sph_config *c, void **block)
 
 /* ---- what holds after any step ---- */
 
-/* the bound on the work of a step that sph_step_slice states in sph.h */
+/* the bounds that sph.h states for the work of a step, and of a slice of one, with every particle in one slab; sorted: the
+   table of cells was good when the step began */
 static UNUSED uint64_t most_work(const sph_sim *sim, uint64_t n)
 {
     const sph_config *c = &sim->cfg;
     const bool rk = c->integrator >= SPH_RUNGE_KUTTA;
-    const uint64_t forces = c->integrator == SPH_PREDICTOR_CORRECTOR ? 1 : 2, block = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27;
+    const uint64_t forces = c->integrator == SPH_PREDICTOR_CORRECTOR ? 1 : 2;
     const uint64_t sums = c->density == SPH_SUMMATION || c->shepard_every ? (rk ? 2u : 1u) : 0;
-    const uint64_t e = forces * (sim->has_adami ? 2 : 1) + sums;
-    return e * (block * sim->mark_cell * n + sim->grid.cells + 32) + 16 * n + 4 * (uint64_t)sim->grid.cells;
+    return SPH_STEP_WORK(forces * (sim->has_adami ? 2 : 1) + sums, n, sim->mark_cell, sim->grid.cells);
 }
-
-/* the bound on a slice, with every particle in one slab; sorted: the table of cells was good when the step began */
 static UNUSED uint64_t most_slice(const sph_sim *sim, uint64_t n, uint64_t budget, bool sorted)
 {
-    const uint64_t block = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27, threads = sim->cfg.port.parallel ? 2 : 1;
-    const uint64_t slabs = (sim->grid.slabs + 63) / 64, k = slabs > 3 ? slabs : 3, c = sim->mark_cell;
-    const uint64_t cell = block * c * c + 1, sort = sorted ? (k + 2) * n + k * sim->grid.slab_cells : n + sim->grid.cells;
-    const uint64_t most = cell > sort ? cell : sort;
-    return budget + threads * (most > 256 ? most : 256);
+    const uint64_t threads = sim->cfg.port.parallel ? 2 : 1, all = n + sim->grid.cells;
+    const uint64_t extra = SPH_SLICE_EXTRA(threads, sim->grid.slabs, n, sim->grid.slab_cells, (uint64_t)sim->mark_cell);
+    return budget + (sorted || extra > all ? extra : all);
 }
 
 static UNUSED void check_books(const sph_sim *sim)
