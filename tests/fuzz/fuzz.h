@@ -20,20 +20,20 @@
 
 /* ---- bytes ---- */
 
-typedef struct bytes {
+typedef struct input {
     const unsigned char *p;
     size_t n;
-} bytes;
+} input;
 
 /* n <= 8 bytes as a number; zeros behind the end */
-static UNUSED uint64_t take(bytes *b, uint32_t n)
+static UNUSED uint64_t take(input *b, uint32_t n)
 {
     uint64_t v = 0;
     for (uint32_t i = 0; i < n && b->n; i++, b->n--)
         v |= (uint64_t)*b->p++ << 8 * i;
     return v;
 }
-static UNUSED uint32_t pick(bytes *b, uint32_t count) { return (uint32_t)take(b, 1) % count; }
+static UNUSED uint32_t pick(input *b, uint32_t count) { return (uint32_t)take(b, 1) % count; }
 
 static UNUSED double as_double(uint64_t u)
 {
@@ -43,7 +43,7 @@ static UNUSED double as_double(uint64_t u)
 }
 
 /* any double at all, the odd ones often */
-static UNUSED double take_any(bytes *b)
+static UNUSED double take_any(input *b)
 {
     static const double odd[] = {0.0, -0.0, 1, -1, 0.5, 1e-3, 1e3, 1e15, -1e15, 1e30, -1e30, 1e38, 3.5e38, 1e300, -1e300,
                                  1.7976931348623157e308, 5e-324, 1e-310, 2.2250738585072014e-308, 1e-30, 2.220446049250313e-16};
@@ -59,12 +59,12 @@ static UNUSED double take_any(bytes *b)
 }
 
 /* a number about 0..scale, in 1/200 of it; seldom any double */
-static UNUSED double take_near(bytes *b, double scale)
+static UNUSED double take_near(input *b, double scale)
 {
     const uint32_t u = (uint32_t)take(b, 1);
     return u == 255 ? take_any(b) : u == 254 ? (double)take(b, 2) / 65536 * scale : ((double)u - 27) / 200 * scale;
 }
-static UNUSED void take_point(bytes *b, double *x, double scale)
+static UNUSED void take_point(input *b, double *x, double scale)
 {
     for (int k = 0; k < SPH_DIM; k++)
         x[k] = take_near(b, scale);

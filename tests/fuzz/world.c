@@ -14,7 +14,7 @@ static void body(void *ctx, double t, const double *x, const double *v, double *
 /* a configuration that is mostly allowed: choices from the bytes, a tank about the unit box */
 static sph_config take_config(world *w)
 {
-    bytes *in = &w->in;
+    input *in = &w->in;
     sph_config c = sph_config_default();
     const uint32_t flags = (uint32_t)take(in, 1), faces = (uint32_t)take(in, 1);
     c.kernel = pick(in, SPH_KERNELS);
@@ -204,7 +204,7 @@ void world_run(const unsigned char *data, size_t n, bool walls)
     static world w;
     uint32_t set;
     memset(&w, 0, sizeof w);
-    w.in = (bytes){data, n};
+    w.in = (input){data, n};
     w.cfg = take_config(&w);
     w.sim = fuzz_init(&w.cfg, &w.block);
     if (w.sim) {
