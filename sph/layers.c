@@ -106,7 +106,7 @@ static sph_set *new_wall_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
 static __attribute__((noinline)) sph_pos bounded_quanta(const sph_sim *sim, int k, double x)
 {
     const double far = sim->grid.length[k];
-    return sph_setup_to_quanta(sim, x < -far ? -far : x > 2 * far ? 2 * far : x);
+    return sph_setup_to_quanta(sim, x > -far ? x < 2 * far ? x : 2 * far : -far);
 }
 
 /* the box in quanta around the region behind a face */
@@ -381,6 +381,8 @@ sph_status sph_add_wall_plane(sph_sim *sim, const sph_wall *wall, const double *
         return st;
     if (!origin || !e1 || !e2)
         return sph_setup_bad(sim, "origin, e1, e2", "three vectors", 0);
+    if ((st = sph_setup_check_vector(sim, "origin", origin)) != SPH_OK)
+        return st;
     double d[2][3], len[2] = {0, 0}, normal[3], nn = 0;
     for (int k = 0; k < 3; k++) {
         len[0] += e1[k] * e1[k];
