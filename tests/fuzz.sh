@@ -3,7 +3,8 @@
 # fuzz.sh: fuzzes the targets of tests/fuzz, replays or renews their committed corpus. Called by the Makefile.
 #   run     fuzzes each of TARGETS for SECONDS_EACH seconds, two at a time; writes BUILD/fuzz.csv; needs clang with libFuzzer
 #   replay  gives the committed corpus to each target; clang with sanitizers where it is there, else CC without
-#   keep    shrinks what `run` found and the committed corpus into tests/fuzz/corpus
+#   keep    shrinks what `run` found and the committed corpus into tests/fuzz/corpus; TARGET.past there holds inputs that
+#           once were findings: add one with build/fuzz/replay_TARGET --pack FILE >>tests/fuzz/corpus/TARGET.past
 set -u
 BUILD=${BUILD:-build} CLANG=${CLANG:-clang} CC=${CC:-cc} MAKE=${MAKE:-make}
 TARGETS=${TARGETS:-config particles walls dumps} SECONDS_EACH=${SECONDS_EACH:-60}
@@ -105,13 +106,16 @@ replay() {
     fi
     for t in $TARGETS; do
         [ -f "$corpus/$t.pack" ] || { echo "fuzz.sh: no $corpus/$t.pack; make fuzz and sh tests/fuzz.sh keep make one" >&2; exit 2; }
-        if said=$("$again/replay_$t" "$corpus/$t.pack" 2>"$again/$t.err"); then
-            printf '  %-10s %s\n' "$t" "$said"
-        else
-            bad=1
-            echo "  $t: FAILED"
-            grep -E -A 12 'runtime error|does not hold|ERROR' "$again/$t.err" | head -20
-        fi
+        for p in "$corpus/$t.pack" "$corpus/$t.past"; do
+            [ -f "$p" ] || continue
+            if said=$("$again/replay_$t" "$p" 2>"$again/$t.err"); then
+                printf '  %-40s %s\n' "$p" "$said"
+            else
+                bad=1
+                echo "  $p: FAILED"
+                grep -E -A 12 'runtime error|does not hold|ERROR' "$again/$t.err" | head -20
+            fi
+        done
     done
     [ $bad = 0 ] && echo "fuzz-replay: the corpus of $(echo "$TARGETS" | wc -w) targets holds ($how)"
     return $bad
