@@ -412,7 +412,7 @@ sph_status sph_add_wall_plane(sph_sim *sim, const sph_wall *wall, const double *
 #if SPH_WITH_MOVING_WALLS
 sph_status sph_remove_wall_at(sph_sim *sim, uint32_t group, double t)
 {
-    sph_status st = sph_setup_idle(sim, "sph_remove_wall");
+    sph_status st = sim ? sph_setup_idle(sim, "sph_remove_wall") : SPH_BAD_ARGUMENT;
     if (st)
         return st;
     if (group >= sim->groups)

@@ -399,7 +399,8 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     f.b = &sim->buf[sim->dst];
     f.homes = 0;
     const sph_config *cfg = &sim->cfg;
-    f.usual = SPH_IS(cfg->eos, TAIT) && SPH_IS(cfg->scheme, STANDARD) && !cfg->pressure_floor && !w->needs_iv;
+    const bool tait = SPH_IS(cfg->eos, TAIT), standard = SPH_IS(cfg->scheme, STANDARD);
+    f.usual = tait && standard && !cfg->pressure_floor && !w->needs_iv;
     uint64_t before = t->pairs;
     uint32_t cell = chunk * sim->chunk_cells, c[3], q = cell;
     const uint32_t left = sim->grid.cells - cell, last = cell + (left < sim->chunk_cells ? left : sim->chunk_cells);

@@ -6,6 +6,7 @@
 #   sh tests/size.sh          sh tests/size.sh --gate: what was measured against tests/results/size.csv, with 3 % to spare
 set -u
 BUILD=${BUILD:-build} CC=${CC:-cc} SIZE=${SIZE:-size} MAKE=${MAKE:-make} PYTHON=${PYTHON:-python3} ARM_SIZE=${ARM_SIZE:-arm-none-eabi-size}
+ARM_LD=${ARM_LD:-arm-none-eabi-ld}
 BITS=${BITS:--std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math}
 # knobs of a kernel with nothing but water and its walls in it (sph/modules.h), and the functions that its host calls; what
 # they do not need is left out by the linker, as in an image
@@ -59,9 +60,9 @@ measure() {
     if [ -n "${8:-}" ]; then
         linked=$d/linked roots=
         mkdir -p "$linked"
-        for f in $8; do roots="$roots -Wl,-u,sph$5_$f"; done
+        for f in $8; do roots="$roots -u sph$5_$f"; done
         # shellcheck disable=SC2086
-        $2 -r -nostdlib -Wl,--gc-sections $roots "$d"/*.o -o "$linked/all.o" || return 1
+        $ARM_LD -r --gc-sections $roots "$d"/*.o -o "$linked/all.o" || return 1
     fi
     limit "code_$1_$5" "$(bytes_of "$3" '^[.]text' "$linked")" bytes "$6"
     limit "rodata_$1_$5" "$(bytes_of "$3" '^[.](rodata|data[.]rel[.]ro)' "$linked")" bytes ""
