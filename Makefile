@@ -220,14 +220,14 @@ FUZZ_TARGETS := config particles walls dumps
 FUZZ_SECONDS ?= 60
 fuzz_obj := $(foreach b,1d 2f 3d,$(patsubst %.c,$(BUILD)/obj/$(b)/%.o,$(filter-out %/entry.c %/replay.c,$(wildcard tests/fuzz/*.c))))
 fuzz_lib := $(foreach b,1d 2f 3d,$(BUILD)/libsph$(b).a)
-$(BUILD)/obj/fuzz_%.o: tests/fuzz/entry.c
+$(FUZZ_TARGETS:%=$(BUILD)/obj/fuzz_%.o): $(BUILD)/obj/fuzz_%.o: tests/fuzz/entry.c
 	$(say) cc "$< ($*)"
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(ALL_CFLAGS) $(HOST_CFLAGS) -DFUZZ_TARGET=$* -MMD -MP -c $< -o $@
-$(BUILD)/fuzz_%: $(BUILD)/obj/fuzz_%.o $(fuzz_obj) $(fuzz_lib)
+$(FUZZ_TARGETS:%=$(BUILD)/fuzz_%): $(BUILD)/fuzz_%: $(BUILD)/obj/fuzz_%.o $(fuzz_obj) $(fuzz_lib)
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) -fsanitize=fuzzer $^ -o $@ -lm
-$(BUILD)/replay_%: $(BUILD)/obj/fuzz_%.o $(BUILD)/obj/tests/fuzz/replay.o $(fuzz_obj) $(fuzz_lib)
+$(FUZZ_TARGETS:%=$(BUILD)/replay_%): $(BUILD)/replay_%: $(BUILD)/obj/fuzz_%.o $(BUILD)/obj/tests/fuzz/replay.o $(fuzz_obj) $(fuzz_lib)
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
 fuzz-programs: $(FUZZ_TARGETS:%=$(BUILD)/fuzz_%)

@@ -432,7 +432,8 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
    cells along the last axis) of b cells:
      a slice    at most budget + threads * max(3^DIM c^2 + 1, (k + 2) s + k b, 256) units, k = max(3, slabs/64 rounded up): the
                 last chunks, one a thread, may pass the budget, and a chunk is a cell of a sweep, k slabs of a sort, or 256
-                particles. The first sort of all has one chunk of n + cells units: sph_ready does it beforehand.
+                particles. The first sort of all has one chunk of n + cells units: sph_ready does it beforehand. So has the
+                first after a step that failed or was given up, and after a restore.
      a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2 for all
                 integrators but the predictor-corrector), as many again with Adami walls, 1 each for the Shepard filter and
                 summation (2 with Runge-Kutta).

@@ -303,7 +303,7 @@ static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_th
 void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    uint8_t *const near = t->near;
+    uint8_t *restrict const near = t->near; /* bytes may be anything: without restrict no compiler makes vectors here */
     if (sim->groups == 0 || sim->cfg.on_cross == SPH_IGNORE)
         return;
     memset(near, 0, last - first);
@@ -313,7 +313,9 @@ void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
             continue;
         /* one loop a wall over integers: compilers make vectors of it */
         sph_pos lo[SPH_DIM], hi[SPH_DIM];
+        const sph_pos *pos[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
+            pos[k] = b->pos[k];
             lo[k] = SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, (int64_t)s->low[k] + sph_wall_moved(sim, s, (uint32_t)k)) : s->low[k];
             hi[k] = SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, (int64_t)s->high[k] + sph_wall_moved(sim, s, (uint32_t)k)) : s->high[k];
         }
@@ -321,7 +323,7 @@ void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
             int in = 1;
             SPH_UNROLL
             for (int k = 0; k < SPH_DIM; k++)
-                in &= (b->pos[k][i] >= lo[k]) & (b->pos[k][i] <= hi[k]);
+                in &= (pos[k][i] >= lo[k]) & (pos[k][i] <= hi[k]);
             near[i - first] |= (uint8_t)in;
         }
     }

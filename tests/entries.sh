@@ -4,7 +4,7 @@
 set -u
 header=sph/sph.h table=tests/test_entry.c
 for f in $header $table; do
-    [ -f $f ] || { echo "entries.sh: no $f; run it where the Makefile is" >&2; exit 2; }
+    [ -f "$f" ] || { echo "entries.sh: no $f; run it where the Makefile is" >&2; exit 2; }
 done
 bad=0 n=0
 in_header=$(sed -n 's/^#define sph_[a-z_0-9]* SPH_NAME(\([a-z_0-9]*\))$/\1/p' $header | sort)

@@ -3,14 +3,15 @@
 # fuzz.sh: fuzzes the targets of tests/fuzz, replays or renews their committed corpus. Called by the Makefile.
 #   run     fuzzes each of TARGETS for SECONDS_EACH seconds, two at a time; writes BUILD/fuzz.csv; needs clang with libFuzzer
 #   replay  gives the committed corpus to each target; clang with sanitizers where it is there, else CC without
-#   keep    shrinks what `run` found and the committed corpus into tests/fuzz/corpus
+#   keep    shrinks what `run` found and the committed corpus into tests/fuzz/corpus; TARGET.past there holds inputs that
+#           once were findings: add one with build/fuzz/replay_TARGET --pack FILE >>tests/fuzz/corpus/TARGET.past
 set -u
 BUILD=${BUILD:-build} CLANG=${CLANG:-clang} CC=${CC:-cc} MAKE=${MAKE:-make}
 TARGETS=${TARGETS:-config particles walls dumps} SECONDS_EACH=${SECONDS_EACH:-60}
-dir=$BUILD/fuzz corpus=tests/fuzz/corpus
+dir=$BUILD/fuzz again=$BUILD/replay corpus=tests/fuzz/corpus
 sanitize="-fsanitize=address,undefined -fno-sanitize-recover=all"
 longest=600 # bytes of an input
-export ASAN_OPTIONS=detect_leaks=0 # the address space layout of some containers stops the leak finder
+export ASAN_OPTIONS=detect_leaks=0 # the kernel allocates nothing, and containers often forbid what the leak finder does
 
 case $SECONDS_EACH in
 '' | *[!0-9]* | 0) echo "fuzz.sh: FUZZ_SECONDS is '$SECONDS_EACH'; it must be a whole number of seconds, 1 or more" >&2; exit 2 ;;
@@ -30,16 +31,16 @@ can_sanitize() {
     printf 'int main(void){return 0;}\n' | "$CLANG" -fsanitize=address,undefined -x c - -o "$dir/probe" 2>/dev/null
 }
 
-# programs ($1) by compiler $2 with flags $3 for objects and $4 for the link
+# programs ($1) in folder $2 by compiler $3 with flags $4 for objects and $5 for the link
 compile() {
-    $MAKE --no-print-directory -s "$1-programs" BUILD="$dir" CC="$2" WARN= OPT="-O1 -g" CFLAGS="$3" LDFLAGS="$4" \
+    $MAKE --no-print-directory -s "$1-programs" BUILD="$2" CC="$3" WARN= OPT="-O1 -g" CFLAGS="$4" LDFLAGS="$5" \
         FUZZ_TARGETS="$TARGETS"
 }
 
 fuzz_programs() {
     can_fuzz || { echo "fuzz.sh: no $CLANG with libFuzzer and sanitizers; as root: apt-get install clang libclang-rt-14-dev" >&2; exit 2; }
-    compile fuzz "$CLANG" "-fsanitize=fuzzer-no-link $sanitize" "$sanitize" || exit 1
-    compile replay "$CLANG" "-fsanitize=fuzzer-no-link $sanitize" "$sanitize" || exit 1
+    compile fuzz "$dir" "$CLANG" "-fsanitize=fuzzer-no-link $sanitize" "$sanitize" || exit 1
+    compile replay "$dir" "$CLANG" "-fsanitize=fuzzer-no-link $sanitize" "$sanitize" || exit 1
 }
 
 unpack() { # target: the committed corpus as files
@@ -82,7 +83,9 @@ run() {
             unpack "$second"
             fuzz_one "$second" || bad=1
         fi
-        wait $one && report "$first" 0 || report "$first" 1
+        other=0
+        wait $one || other=1
+        report "$first" $other
         [ -z "$second" ] || report "$second" $bad
         shift
         [ $# -eq 0 ] || shift
@@ -94,18 +97,25 @@ replay() {
     bad=0
     if can_sanitize; then
         how="$CLANG, sanitizers"
-        compile replay "$CLANG" "$sanitize" "$sanitize" || exit 1
+        again=$again/sanitized
+        compile replay "$again" "$CLANG" "$sanitize" "$sanitize" || exit 1
     else
         how="$CC, no sanitizers"
-        compile replay "$CC" "" "" || exit 1
+        again=$again/plain
+        compile replay "$again" "$CC" "" "" || exit 1
     fi
     for t in $TARGETS; do
         [ -f "$corpus/$t.pack" ] || { echo "fuzz.sh: no $corpus/$t.pack; make fuzz and sh tests/fuzz.sh keep make one" >&2; exit 2; }
-        said=$("$dir/replay_$t" "$corpus/$t.pack" 2>"$dir/$t.err") && printf '  %-10s %s\n' "$t" "$said" || {
-            bad=1
-            echo "  $t: FAILED"
-            grep -E -A 12 'runtime error|does not hold|ERROR' "$dir/$t.err" | head -20
-        }
+        for p in "$corpus/$t.pack" "$corpus/$t.past"; do
+            [ -f "$p" ] || continue
+            if said=$("$again/replay_$t" "$p" 2>"$again/$t.err"); then
+                printf '  %-40s %s\n' "$p" "$said"
+            else
+                bad=1
+                echo "  $p: FAILED"
+                grep -E -A 12 'runtime error|does not hold|ERROR' "$again/$t.err" | head -20
+            fi
+        done
     done
     [ $bad = 0 ] && echo "fuzz-replay: the corpus of $(echo "$TARGETS" | wc -w) targets holds ($how)"
     return $bad
@@ -117,13 +127,14 @@ keep() {
     for t in $TARGETS; do
         unpack "$t"
         rm -rf "$dir/least" && mkdir -p "$dir/least"
-        "$dir/fuzz_$t" -merge=1 -max_len=$longest "$dir/least" "$dir/corpus/$t" >"$dir/$t.merge.log" 2>&1 || exit 1
+        # without counters: an input is kept for an edge of its own, not for how often it takes one
+        "$dir/fuzz_$t" -merge=1 -use_counters=0 -max_len=$longest "$dir/least" "$dir/corpus/$t" >"$dir/$t.merge.log" 2>&1 || exit 1
         "$dir/replay_$t" --pack "$dir"/least/* >"$corpus/$t.pack" || exit 1
         echo "  $t: $(find "$dir/least" -type f | wc -l) inputs, $(wc -c <"$corpus/$t.pack") bytes"
     done
 }
 
-mkdir -p "$dir"
+mkdir -p "$dir" "$again"
 case ${1:-} in
 run) run ;;
 replay) replay ;;

@@ -7,7 +7,7 @@ set -u
 BUILD=${BUILD:-build} MAKE=${MAKE:-make} CC=${CC:-cc}
 # a slice of u units takes at most UNIT (u + 100) instructions on an M4F at -O2: the dearest are candidates that are loaded
 # for a single particle
-UNIT=${UNIT:-1500}
+UNIT=${UNIT:-1000}
 . port/cortexm.sh
 metal_machine cortex-m4f || exit 1
 dir=$BUILD/metal out=$BUILD/slices.csv

@@ -208,7 +208,18 @@ static void agree(const sph_config *c)
 static void row_config_check(void)
 {
     sph_report r;
+    shuffle order;
+    sph_config many = bed.cfg;
+    many.port = shuffle_port(&order, bed.cfg.max_threads + 1); /* more threads than scratch */
+    assert_int_equal(sph_config_check(&many, &r), SPH_BAD_CONFIG);
+    assert_string_equal(r.what, "port.threads");
     assert_int_equal(sph_config_check(NULL, &r), SPH_BAD_CONFIG);
+    for (int k = 0; k < SPH_DIM; k++) { /* an axis that is finite and upright, but nearly no length */
+        sph_config thin = bed.cfg;
+        thin.hi[k] = thin.lo[k] + 0.9 * thin.spacing;
+        assert_int_equal(sph_config_check(&thin, &r), SPH_BAD_CONFIG);
+        assert_string_equal(r.what, "hi");
+    }
     for (uint32_t i = 0; i < NUMBERS; i++)
         EACH_NUMBER(x) {
             sph_config c = bed.cfg;
@@ -445,6 +456,7 @@ static void row_apply_hydrostatic(void)
         if (!(x > -1e15 && x < 1e15))
             refused(sph_apply_hydrostatic(bed.sim, 0, x));
     }
+    refused(sph_apply_hydrostatic(bed.sim, 0, 9.9e14)); /* finite, but so deep that water would have 100 times its density */
 }
 
 /* ---- walls ---- */
@@ -696,6 +708,25 @@ static void row_gauge(void)
             at[k] = 0.5;
         }
 }
+/* where a quarter of a spacing is less than the last digit of a coordinate, the search for the surface still ends */
+static void a_gauge_far_from_the_origin_ends(void **state)
+{
+    sph_config c = open_config(1, 0.25);
+    uint32_t set;
+    double h;
+    (void)state;
+    for (int k = 0; k < SPH_DIM; k++) {
+        c.lo[k] = 1e15;
+        c.hi[k] = 1e15 + 8;
+    }
+    VECTOR(at, 1e15 + 4)
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    must(sim, sph_add_particle(sim, set, at, NULL, 0, NULL));
+    must(sim, sph_gauge(sim, at, SPH_DIM - 1, &h));
+    assert_true(h >= 1e15 && h <= 1e15 + 8);
+}
+
 static void row_extent(void)
 {
     double low = 7, high = 7;
@@ -827,6 +858,7 @@ int main(void)
         subject(every_entry_of_an_empty_simulation), subject(every_entry_of_a_filled_simulation),
         subject(every_entry_after_ready),            subject(every_entry_after_a_step),
         subject(every_entry_between_slices),         subject(every_entry_after_a_failure),
+        subject(a_gauge_far_from_the_origin_ends),
     };
     return run_subjects("entry", list);
 }

@@ -4,7 +4,7 @@
 #include "fuzz.h"
 
 /* one number of the configuration becomes another */
-static void change_field(bytes *in, sph_config *c)
+static void change_field(input *in, sph_config *c)
 {
     double *const numbers[] = {&c->spacing, &c->smoothing_length, &c->rho0, &c->sound_speed, &c->alpha, &c->beta, &c->nu,
                                &c->delta, &c->xsph, &c->damping, &c->dt, &c->cfl, &c->viscous_factor, &c->force_factor,
@@ -24,7 +24,7 @@ static void change_field(bytes *in, sph_config *c)
         *words[which - NUMBERS - WORDS] = (uint32_t)take(in, 4);
 }
 
-static sph_config make_config(bytes *in)
+static sph_config make_config(input *in)
 {
     sph_config c = sph_config_default();
     const uint32_t how = pick(in, 8);
@@ -77,7 +77,7 @@ static void refuse_arenas(const sph_config *c, size_t bytes)
     free(block);
 }
 
-static void live(bytes *in, const sph_config *c, sph_sim *sim)
+static void live(input *in, const sph_config *c, sph_sim *sim)
 {
     uint32_t set, group;
     size_t sum = 0;
@@ -122,7 +122,7 @@ static void live(bytes *in, const sph_config *c, sph_sim *sim)
 void SPH_NAME(fuzz_config)(const unsigned char *data, size_t n);
 void SPH_NAME(fuzz_config)(const unsigned char *data, size_t n)
 {
-    bytes in = {data, n};
+    input in = {data, n};
     sph_report r = {SPH_OK, "", "", "", 0, 0};
     const sph_config c = make_config(&in);
     const sph_status st = sph_config_check(&c, &r);

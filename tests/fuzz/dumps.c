@@ -30,7 +30,7 @@ static bool put(void *ctx, const void *p, size_t n)
 }
 static bool get(void *ctx, void *p, size_t n)
 {
-    bytes *s = ctx;
+    input *s = ctx;
     hold(n > 0 && n <= SPH_PIECE);
     if (n > s->n)
         return false;
@@ -135,7 +135,7 @@ static void repair(unsigned char *d, size_t n, const unsigned char *plan, size_t
     }
 }
 
-static size_t mutate(bytes *in, const scene *s, unsigned char *d)
+static size_t mutate(input *in, const scene *s, unsigned char *d)
 {
     size_t n = s->dump_bytes;
     const bool mend = pick(in, 4) != 0;
@@ -167,7 +167,7 @@ static void go_on(sph_sim *sim)
     const uint64_t before = sph_hash(sim);
     hold(sph_count(sim) <= sim->cfg.max_particles);
     hold(sph_dump(sim, SPH_DUMP_FULL, put, &out) == SPH_OK);
-    bytes back = {again, out.n};
+    input back = {again, out.n};
     hold(sph_restore(sim, get, &back) == SPH_OK && sph_hash(sim) == before);
     for (int k = 0; k < 3; k++) {
         snapshot s;
@@ -188,12 +188,12 @@ void SPH_NAME(fuzz_dumps)(const unsigned char *data, size_t n);
 void SPH_NAME(fuzz_dumps)(const unsigned char *data, size_t n)
 {
     static unsigned char changed[MOST_DUMP];
-    bytes in = {data, n};
+    input in = {data, n};
     snapshot kept;
     const uint32_t how = (uint32_t)take(&in, 1);
     scene *s = get_scene(how % SCENES);
     if (how >> 2 & 7)
-        in = (bytes){changed, mutate(&in, s, changed)};
+        in = (input){changed, mutate(&in, s, changed)};
     const bool same = in.n == s->dump_bytes && memcmp(in.p, s->dump, in.n) == 0;
     keep_state(s->sim, &kept);
     const sph_status st = sph_restore(s->sim, get, &in);

@@ -20,20 +20,20 @@
 
 /* ---- bytes ---- */
 
-typedef struct bytes {
+typedef struct input {
     const unsigned char *p;
     size_t n;
-} bytes;
+} input;
 
 /* n <= 8 bytes as a number; zeros behind the end */
-static UNUSED uint64_t take(bytes *b, uint32_t n)
+static UNUSED uint64_t take(input *b, uint32_t n)
 {
     uint64_t v = 0;
     for (uint32_t i = 0; i < n && b->n; i++, b->n--)
         v |= (uint64_t)*b->p++ << 8 * i;
     return v;
 }
-static UNUSED uint32_t pick(bytes *b, uint32_t count) { return (uint32_t)take(b, 1) % count; }
+static UNUSED uint32_t pick(input *b, uint32_t count) { return (uint32_t)take(b, 1) % count; }
 
 static UNUSED double as_double(uint64_t u)
 {
@@ -43,7 +43,7 @@ static UNUSED double as_double(uint64_t u)
 }
 
 /* any double at all, the odd ones often */
-static UNUSED double take_any(bytes *b)
+static UNUSED double take_any(input *b)
 {
     static const double odd[] = {0.0, -0.0, 1, -1, 0.5, 1e-3, 1e3, 1e15, -1e15, 1e30, -1e30, 1e38, 3.5e38, 1e300, -1e300,
                                  1.7976931348623157e308, 5e-324, 1e-310, 2.2250738585072014e-308, 1e-30, 2.220446049250313e-16};
@@ -59,12 +59,12 @@ static UNUSED double take_any(bytes *b)
 }
 
 /* a number about 0..scale, in 1/200 of it; seldom any double */
-static UNUSED double take_near(bytes *b, double scale)
+static UNUSED double take_near(input *b, double scale)
 {
     const uint32_t u = (uint32_t)take(b, 1);
     return u == 255 ? take_any(b) : u == 254 ? (double)take(b, 2) / 65536 * scale : ((double)u - 27) / 200 * scale;
 }
-static UNUSED void take_point(bytes *b, double *x, double scale)
+static UNUSED void take_point(input *b, double *x, double scale)
 {
     for (int k = 0; k < SPH_DIM; k++)
         x[k] = take_near(b, scale);
@@ -94,25 +94,21 @@ static UNUSED sph_sim *fuzz_init(const sph_config *c, void **block)
 
 /* ---- what holds after any step ---- */
 
-/* the bound on the work of a step that sph_step_slice states in sph.h */
+/* the bounds that sph.h states for the work of a step, and of a slice of one, with every particle in one slab; sorted: the
+   table of cells was good when the step began */
 static UNUSED uint64_t most_work(const sph_sim *sim, uint64_t n)
 {
     const sph_config *c = &sim->cfg;
     const bool rk = c->integrator >= SPH_RUNGE_KUTTA;
-    const uint64_t forces = c->integrator == SPH_PREDICTOR_CORRECTOR ? 1 : 2, block = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27;
+    const uint64_t forces = c->integrator == SPH_PREDICTOR_CORRECTOR ? 1 : 2;
     const uint64_t sums = c->density == SPH_SUMMATION || c->shepard_every ? (rk ? 2u : 1u) : 0;
-    const uint64_t e = forces * (sim->has_adami ? 2 : 1) + sums;
-    return e * (block * sim->mark_cell * n + sim->grid.cells + 32) + 16 * n + 4 * (uint64_t)sim->grid.cells;
+    return SPH_STEP_WORK(forces * (sim->has_adami ? 2 : 1) + sums, n, sim->mark_cell, sim->grid.cells);
 }
-
-/* the bound on a slice, with every particle in one slab */
-static UNUSED uint64_t most_slice(const sph_sim *sim, uint64_t n, uint64_t budget)
+static UNUSED uint64_t most_slice(const sph_sim *sim, uint64_t n, uint64_t budget, bool sorted)
 {
-    const uint64_t block = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27, threads = sim->cfg.port.parallel ? 2 : 1;
-    const uint64_t slabs = (sim->grid.slabs + 63) / 64, k = slabs > 3 ? slabs : 3, c = sim->mark_cell;
-    const uint64_t cell = block * c * c + 1, sort = (k + 2) * n + k * sim->grid.slab_cells;
-    const uint64_t most = cell > sort ? cell : sort;
-    return budget + threads * (most > 256 ? most : 256);
+    const uint64_t threads = sim->cfg.port.parallel ? 2 : 1, all = n + sim->grid.cells;
+    const uint64_t extra = SPH_SLICE_EXTRA(threads, sim->grid.slabs, n, sim->grid.slab_cells, (uint64_t)sim->mark_cell);
+    return budget + (sorted || extra > all ? extra : all);
 }
 
 static UNUSED void check_books(const sph_sim *sim)

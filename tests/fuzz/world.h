@@ -11,7 +11,7 @@ typedef struct motion {
 } motion;
 
 typedef struct world {
-    bytes in;
+    input in;
     sph_sim *sim;
     void *block;
     sph_config cfg;
