@@ -67,7 +67,9 @@ fi
 
 # a line a machine: how many hashes were equal in each build, and the hash of the first case in 2-D float
 if [ "${1:-}" = --readme ]; then
-    awk -v names="$(machine_names | tr '\n' ' ')" 'NR > 1 {
+    awk -v names="$(machine_names | tr '\n' ' ')" '
+    function n_of(k) { return k in equal ? equal[k] : "-" }
+    NR > 1 {
         m = $0
         sub(/_[123][fd]_.*/, "", m)
         rest = substr($0, length(m) + 2)
