@@ -3,13 +3,15 @@
 # targets.sh: the golden runs on every machine of port/targets.txt that this one has tools for: all six builds, every hash
 # against tests/golden.csv. Installs nothing; says what is missing. Writes BUILD/targets.csv.
 #   sh tests/targets.sh [NAME...]     these machines only (default: all)
+#   sh tests/targets.sh --report [NAME...]   what the latest runs gave, without running anything
+#   sh tests/targets.sh --readme      the table of README.md, from BUILD/targets.csv
 #   FULL=1      slow machines run all cases too          STRICT=1   a machine without tools counts as a failure
-#   JOBS=N      machines at once (default 2)             BUILD=DIR  where things are made (default build)
+#   BUILDS="1f 2f"  these builds only                    JOBS=N     machines at once (default 2)
 set -u
 . tests/machines.sh
 JOBS=${JOBS:-2} FULL=${FULL:-0} STRICT=${STRICT:-0}
 golden=tests/golden.csv dir=$BUILD/targets
-builds="1f 1d 2f 2d 3f 3d"
+builds=${BUILDS:-1f 1d 2f 2d 3f 3d}
 export FULL
 
 # the lines of golden.csv that build $1 must give
@@ -63,13 +65,38 @@ if [ "${1:-}" = --one ]; then
     exit
 fi
 
+# a line a machine: how many hashes were equal in each build, and the hash of the first case in 2-D float
+if [ "${1:-}" = --readme ]; then
+    awk -v names="$(machine_names | tr '\n' ' ')" '
+    function n_of(k) { return k in equal ? equal[k] : "-" }
+    NR > 1 {
+        m = $0
+        sub(/_[123][fd]_.*/, "", m)
+        rest = substr($0, length(m) + 2)
+        split(rest, p, ",")
+        b = substr(p[1], 1, 2)
+        if (p[1] ~ /_equal$/) {equal[m b] = p[2]; cc[m] = p[3]; gsub(/scenes \(|\)/, "", cc[m]); if (p[5] == "no") equal[m b] = "differs"}
+        if (p[1] == "2f_first_case") hash[m] = p[2]
+    } END {
+        print "| target | compiler | base, 2-D float | equal hashes in 1-D float, double | 2-D | 3-D |\n|---|---|---|---|---|---|"
+        n = split(names, name, " ")
+        for (i = 1; i <= n; i++)
+            if ((m = name[i]) in cc)
+                printf "| %s | %s | `%s` | %s, %s | %s, %s | %s, %s |\n", m, cc[m], hash[m], n_of(m "1f"), n_of(m "1d"),
+                    n_of(m "2f"), n_of(m "2d"), n_of(m "3f"), n_of(m "3d")
+    }' "$BUILD/targets.csv"
+    exit
+fi
+
+only_report=0
+[ "${1:-}" = --report ] && { only_report=1; shift; }
 list=${*:-$(machine_names)}
 for n in $list; do read_machine "$n" || exit 2; done
 mkdir -p "$dir"
 began=$(date +%s)
 # shellcheck disable=SC2086
-printf '%s\n' $list | xargs -P "$JOBS" -n 1 sh "$0" --one
-for n in $list; do cat "$dir/$n/table"; done >"$dir/table"
+[ $only_report = 1 ] || printf '%s\n' $list | xargs -P "$JOBS" -n 1 sh "$0" --one
+for n in $list; do cat "$dir/$n/table"; done >"$dir/table" || exit 1
 awk -F'|' -v out="$BUILD/targets.csv" 'BEGIN {
     row = "  %-12s %-13s %-7s %-4s %-6s %-17s %5s  %s\n"
     printf row, "target", "compiler", "real", "dim", "scenes", "hash of the first", "s", "hashes"
