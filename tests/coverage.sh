@@ -9,7 +9,7 @@ find "$BUILD" -name '*.gcda' -delete 2>/dev/null
 # -O1: at -O0 the tests of same bits take ten times as long, and lines keep their counts
 $MAKE --no-print-directory -s tests BUILD="$BUILD" CC="$GCC" OPT="-O1 -g" CFLAGS="--coverage" LDFLAGS="--coverage" || exit 1
 echo "  running the tests (their failures are for make test to show)"
-for t in "$BUILD"/tests/test_*_[123][fd]; do "$t" >/dev/null 2>&1; done
+sh tests/run.sh "$BUILD" "$BUILD"/tests/test_*_[123][fd] >/dev/null
 mkdir -p "$BUILD/gcov"
 for b in 1f 1d 2f 2d 3f 3d; do
     "$GCOV" -t -r -o "$BUILD/obj/$b/sph" "$BUILD/obj/$b/sph/"*.gcda >"$BUILD/gcov/$b.gcov" 2>/dev/null
