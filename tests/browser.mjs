@@ -30,11 +30,11 @@ browser.stdio[4].on('data', (text) => {
   }
 });
 
-let session;
+let attached; // to the page
 function send(method, params = {}) {
   serial += 1;
   const id = serial;
-  browser.stdio[3].write(`${JSON.stringify({ id, method, params, sessionId: session })}\0`);
+  browser.stdio[3].write(`${JSON.stringify({ id, method, params, sessionId: attached })}\0`);
   return new Promise((done, reject) => waiting.set(id, { resolve: done, reject }));
 }
 
@@ -144,7 +144,7 @@ browser.on('error', (why) => { console.error(`browser.mjs: ${chromium}: ${why.me
 
 try {
   const { targetInfos } = await send('Target.getTargets');
-  session = (await send('Target.attachToTarget', { targetId: targetInfos.find((t) => t.type === 'page').targetId, flatten: true })).sessionId;
+  attached = (await send('Target.attachToTarget', { targetId: targetInfos.find((t) => t.type === 'page').targetId, flatten: true })).sessionId;
   await send('Page.enable');
   const found = await hashes();
   await controls();
