@@ -80,14 +80,14 @@ enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 /* enough for any case: asserted by the runners through the status of sph_init */
 #define CASE_ARENA_BYTES (SPH_DIM == 3 ? 2u << 20 : 1u << 20)
 
-static void case_motion(void *ctx, double t, double *x, double *v)
+static __attribute__((unused)) void case_motion(void *ctx, double t, double *x, double *v)
 {
     (void)ctx;
     x[0] = 0.02 * CASE_DX * sph_sin(80 * t);
     v[0] = 0.02 * CASE_DX * 80 * sph_cos(80 * t);
 }
 
-static void case_body(void *ctx, double t, const double *x, const double *v, double *a)
+static __attribute__((unused)) void case_body(void *ctx, double t, const double *x, const double *v, double *a)
 {
     (void)ctx;
     for (int k = 0; k < SPH_DIM; k++)

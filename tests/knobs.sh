@@ -87,9 +87,9 @@ while IFS='|' read -r name flags; do
     [ -f "$dir/$name.row" ] || continue
     IFS=, read -r n ran bytes <"$dir/$name.row"
     saved=$((all - bytes))
-    # leaving code out never adds any
-    [ $saved -lt 0 ] && { echo "  $name: $((-saved)) bytes more than with everything" >&2; bad=$((bad + 1)) ok=no; }
-    echo "$name,$saved,bytes saved,>=0,$ok"
+    # leaving code out adds none, but for a jump or two that a compiler encodes longer
+    [ $saved -lt -16 ] && { echo "  $name: $((-saved)) bytes more than with everything" >&2; bad=$((bad + 1)) ok=no; }
+    echo "$name,$saved,bytes saved,>=-16,$ok"
     echo "${name}_cases,$ran,cases golden,,"
 done <"$dir/list" >>"$out"
 awk -F, 'NR > 1 && $3 == "bytes saved" {printf "  %-32s %7d bytes of code saved\n", $1, $2}' "$out"
