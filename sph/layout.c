@@ -318,15 +318,15 @@ static void lay_out(const sph_config *c, const sph_grid *g, sph_sim *s, layout *
 {
     const size_t n = (size_t)c->max_particles + SPH_PAD;
     const uint32_t buffers = uses_rk(c) ? 3 : 2, partials = c->max_particles / SPH_LOCAL_CHUNK + 1;
-    SPH_PLACE(set, "sets", c->max_sets, sizeof *s->set);
-    SPH_PLACE(group, "wall groups", SPH_MAX_GROUPS, sizeof *s->group);
+    SPH_PLACE(set, "sets", c->max_sets, sizeof(sph_set));
+    SPH_PLACE(group, "wall groups", SPH_MAX_GROUPS, sizeof(sph_group));
     SPH_PLACE(thread, "thread scratch", c->max_threads, sizeof(struct sph_thread));
     for (uint32_t b = 0; b < buffers; b++)
         lay_out_state(c, s, b, l);
-    SPH_PLACE(cell, "cell starts", (size_t)g->cells + 2, sizeof *s->cell);
-    SPH_PLACE(slab, "slab starts", (size_t)g->slabs + 1, sizeof *s->slab);
+    SPH_PLACE(cell, "cell starts", (size_t)g->cells + 2, sizeof(uint32_t));
+    SPH_PLACE(slab, "slab starts", (size_t)g->slabs + 1, sizeof(uint32_t));
     if (sph_filters(c) || sph_sums_density(c))
-        SPH_PLACE(tmp, "filtered density", n, sizeof *s->tmp);
+        SPH_PLACE(tmp, "filtered density", n, sizeof(sph_real));
     if (sph_keeps_books(c)) {
         for (uint32_t k = 0; k < SPH_POWERS; k++)
             SPH_PLACE(power[k], "powers for the books", n, sizeof(sph_real));
