@@ -29,7 +29,7 @@ typedef sph_factors factors;
 #define PC_COURANT 0.22
 #define PC_DISSIPATION (0.01 / 8) /* nu/(h c) of artificial viscosity with alpha 0.01 in 2-D */
 #define PC_COURANT_LEAST 0.05
-/* cube root of 1e-3 .. 1e6: Newton's rule from 1, which at worst takes 28 turns to come near and 6 to converge */
+/* cube root of 1e-3 .. 1e6: Newton's rule from 1. At worst (1e6) one turn overshoots, about 20 take a third off each, 6 converge */
 static double cube_root(double x)
 {
     double r = 1;
