@@ -3,6 +3,7 @@
    order in double precision, so they are the same on every machine. */
 #include "internal.h"
 #include "kernels.h"
+#include "solid.h"
 
 uint32_t sph_count(const sph_sim *sim) { return sim ? sim->now.count : 0; }
 
@@ -16,7 +17,7 @@ static void position(const sph_sim *sim, const sph_buffer *b, uint32_t i, double
 static bool is_fluid(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 {
     uint8_t s = b->set[0][i];
-    return s != SPH_DEAD && sim->set[s].role == SPH_ROLE_FLUID;
+    return s != SPH_DEAD && sph_is_body(&sim->set[s]);
 }
 #endif
 
@@ -40,7 +41,15 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
     out->mass = s->mass;
     out->rho = s->rho0 * (1 + (double)b->rho[0][i]);
     out->p = sph_pressure(sim, s, (double)b->rho[0][i]);
-    if (s->role != SPH_ROLE_FLUID)
+    for (int k = 0; k < 3; k++)
+        out->stress[k] = -out->p;
+#if SPH_WITH_SOLID
+    if (sph_is_solid(s)) {
+        out->damage = sph_stress_of(sim, b, i, out->stress);
+        out->plastic = SPH_HAS_YIELD && b->plastic[0] ? (double)b->plastic[0][i] : 0;
+    }
+#endif
+    if (!sph_is_body(s))
         for (int k = 0; k < SPH_DIM; k++)
             out->v[k] = sim->now.group[s->group].vel[k];
     return SPH_OK;
@@ -51,7 +60,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
 static double compression_energy(const sph_sim *sim, const sph_set *s, double d)
 {
     double b = (double)s->b_r / s->rho0, r = 1 + d;
-    switch (sim->cfg.eos) {
+    (void)sim;
+    switch (s->eos) {
     /* c^2 (ln s + 1/s - 1) and c^2 ln s; by series near rest, where they cancel */
     case SPH_LINEAR: return b * d * d * (0.5 - d * (2.0 / 3 - d * (0.75 - 0.8 * d)));
     case SPH_ISOTHERMAL: return b * d * (1 - d * (0.5 - d * (1.0 / 3 - 0.25 * d)));
@@ -76,10 +86,23 @@ static void add_particle_totals(const sph_sim *sim, const sph_buffer *b, uint32_
     o->mass += m;
     o->kinetic += 0.5 * m * v2;
     o->internal += m * compression_energy(sim, s, (double)b->rho[0][i]);
+#if SPH_WITH_SOLID
+    if (sph_is_solid(s)) {
+        double sigma[6], w = 0, p, ep = SPH_HAS_YIELD && b->plastic[0] ? (double)b->plastic[0][i] : 0;
+        const double whole = 1 - sph_stress_of(sim, b, i, sigma);
+        p = (sigma[0] + sigma[1] + sigma[2]) / 3;
+        for (int k = 0; k < 6; k++)
+            w += (k < 3 ? (sigma[k] - p) * (sigma[k] - p) : 2 * sigma[k] * sigma[k]);
+        if (s->shear > 0 && whole > 0)
+            o->elastic += m / s->rho0 * w / (4 * s->shear * whole); /* (1 - D) S:S/(4 mu) */
+        o->plastic_work += m / s->rho0 * ep * (s->yield + 0.5 * s->hardening * ep);
+        o->solid++;
+    }
+#endif
     o->max_speed = v2 > o->max_speed ? v2 : o->max_speed;
-    o->min_density = rho < o->min_density || o->fluid == 0 ? rho : o->min_density;
+    o->min_density = rho < o->min_density || o->mass <= m ? rho : o->min_density; /* the first so far has mass m */
     o->max_density = rho > o->max_density ? rho : o->max_density;
-    o->fluid++;
+    o->fluid += s->role == SPH_ROLE_FLUID;
 }
 
 void sph_get_totals(const sph_sim *sim, sph_totals *out)

@@ -89,6 +89,7 @@ static const field scene_fields[] = {
     {"integrator", "1", M_U32, 1, AT(sph_sim, cfg.integrator)},
     {"eos", "1", M_U32, 1, AT(sph_sim, cfg.eos)},
     {"pressure_floor", "1", M_BOOL, 1, AT(sph_sim, cfg.pressure_floor)},
+    {"solid", "1", M_U32, 1, AT(sph_sim, cfg.solid)},
     {"rho0", "kg/m^3", M_DOUBLE, 1, AT(sph_sim, cfg.rho0)},
     {"sound_speed", "m/s", M_DOUBLE, 1, AT(sph_sim, cfg.sound_speed)},
 };
@@ -96,6 +97,9 @@ static const field set_fields[] = {
     {"role", "1", M_U32, 1, AT(sph_set, role)},
     {"kind", "1", M_U32, 1, AT(sph_set, kind)},
     {"group", "1", M_U32, 1, AT(sph_set, group)},
+    {"eos", "1", M_U32, 1, AT(sph_set, eos)},
+    {"body", "1", M_U32, 1, AT(sph_set, body)},
+    {"held", "1", M_U32, 1, AT(sph_set, held)},
     {"compressible", "1", M_BOOL, 1, AT(sph_set, compressible)},
     {"no_slip", "1", M_BOOL, 1, AT(sph_set, no_slip)},
     {"corner", "1", M_BOOL, 1, AT(sph_set, corner)},
@@ -103,6 +107,10 @@ static const field set_fields[] = {
     {"rho0", "kg/m^3", M_DOUBLE, 1, AT(sph_set, rho0)},
     {"sound_speed", "m/s", M_DOUBLE, 1, AT(sph_set, c0)},
     {"pressure_scale", "Pa", M_REAL, 1, AT(sph_set, b_r)},
+    {"shear", "Pa", M_DOUBLE, 1, AT(sph_set, shear)},
+    {"yield", "Pa", M_DOUBLE, 1, AT(sph_set, yield)},
+    {"hardening", "Pa", M_DOUBLE, 1, AT(sph_set, hardening)},
+    {"crack_rate", "1/s", M_DOUBLE, 1, AT(sph_set, crack_rate)},
     {"strength", "1", M_DOUBLE, 1, AT(sph_set, strength)},
     {"origin", "m", M_DOUBLE, SPH_DIM, AT(sph_set, origin)}, /* from lo */
     {"normal", "1", M_DOUBLE, SPH_DIM, AT(sph_set, normal)},
@@ -573,6 +581,9 @@ static bool chosen(uint32_t fields, const char *name)
     case 'v' << 8 | 'e': return fields & SPH_DUMP_VELOCITY;
     case 'r' << 8 | 'h': return fields & SPH_DUMP_DENSITY;
     case 'a' << 8 | 'c': return fields & SPH_DUMP_ACCELERATION;
+    case 's' << 8 | 't': return fields & SPH_DUMP_STRESS;
+    case 'p' << 8 | 'l':
+    case 'd' << 8 | 'a': return fields & SPH_DUMP_DAMAGE;
     default: return false;
     }
 }
@@ -716,11 +727,35 @@ static bool check_ids(stream *s, sph_sim *sim, const sph_buffer *b, uint32_t n)
     return fine;
 }
 
+#if SPH_WITH_SOLID
+/* what only solids have */
+static bool check_solids(stream *s, const sph_sim *sim, const sph_buffer *b, uint32_t n)
+{
+    if (!check_finite(s, b, "stress", b->stress, SPH_NS, n) || !check_finite(s, b, "dstress", b->dstress, SPH_NS, n))
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        if (SPH_HAS_YIELD && b->plastic[0] && !(b->plastic[0][i] >= 0 && sph_finite((double)b->plastic[0][i])))
+            return refuse_particle(s, "plastic", "finite and >= 0", (double)b->plastic[0][i], b->id[0][i]);
+        if (SPH_HAS_DAMAGE && b->damage[0] && !(b->damage[0][i] >= 0 && b->damage[0][i] <= 1))
+            return refuse_particle(s, "damage", "0 .. 1", (double)b->damage[0][i], b->id[0][i]);
+        for (uint32_t k = 0; SPH_HAS_TOTAL && b->shift[0] && k < SPH_DIM; k++) {
+            const sph_pos half = sim->grid.extent[k] / 2, d = b->shift[k][i];
+            if (d > half || d < -half)
+                return refuse_particle(s, "shift", "at most half the domain", (double)d, b->id[0][i]);
+        }
+    }
+    return true;
+}
+#else
+#define check_solids(s, sim, b, n) true
+#endif
+
 static bool check_buffer(stream *s, sph_sim *sim, const sph_buffer *b, uint32_t n)
 {
     return check_particles(s, sim, b, n) && check_ids(s, sim, b, n) && check_finite(s, b, "vel", b->vel, SPH_DIM, n) &&
            check_finite(s, b, "rho", b->rho, 1, n) && check_finite(s, b, "acc", b->acc, SPH_DIM, n) &&
-           check_finite(s, b, "drho", b->drho, 1, n) && check_finite(s, b, "xsph", b->xsph, SPH_DIM, n);
+           check_finite(s, b, "drho", b->drho, 1, n) && check_finite(s, b, "xsph", b->xsph, SPH_DIM, n) &&
+           check_solids(s, sim, b, n);
 }
 
 static bool read_all(stream *s, sph_sim *sim, uint32_t spare, run *r)

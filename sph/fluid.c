@@ -10,6 +10,9 @@
      diffusion   drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (r_ji . grad W)/(r^2 + 0.01 h^2)
      XSPH        u_i += xsph (m_j/rho_mean) (v_j - v_i) W   (Gray 2001 eq 2.22; not with walls, as he says)
 
+   Scenes with solids take the same pair formulas, with a stress tensor in place of the pressure and the velocity gradient in
+   place of continuity: see SPH_UPDATED in sph.h, and solid.h.
+
    Arrays: none but the state's acc, drho (and xsph, tmp, power when chosen). Cost: one sweep a force evaluation. */
 #include "fluid.h"
 #include "kernels.h"
@@ -18,6 +21,8 @@
 typedef struct choice {
     uint32_t kernel, scheme, viscosity, diffusion;
     bool beta, xsph, books;
+    bool solid, total, hat; /* a stress tensor; reference positions; strain rates from smoothed velocities */
+    uint32_t repulsion;     /* exponent of the artificial stress, 0: none */
 } choice;
 
 typedef sph_factors factors;
@@ -63,6 +68,12 @@ void sph_make_factors(sph_sim *sim)
     f->reach2 = (sph_real)(support * support * h * h * 1.0001); /* the scalar form skips beyond: all terms are 0 there */
     f->slope = (sph_real)slope;
     f->value = (sph_real)value;
+    if (sph_repels(c)) {
+        double at, dw;
+        sph_kernel_value(c->kernel, c->spacing, h, &at, &dw);
+        f->inv_wdx = (sph_real)(value / at);
+        f->repulsion = (sph_real)c->stress_epsilon;
+    }
     /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = (rho_i + rho_j) |mu'| */
     f->av_alpha = (sph_real)(2 * h * c->alpha * c->sound_speed);
     f->av_beta = (sph_real)(2 * h * h * c->beta);
@@ -85,6 +96,9 @@ void sph_make_factors(sph_sim *sim)
 /* what a home particle brings to each pair, spread over the lanes once */
 typedef struct home {
     vreal x[SPH_DIM], v[SPH_DIM], rho, a, iv;
+#if SPH_WITH_SOLID
+    vreal t[SPH_NL], r[SPH_NT], k[SPH_DIM], u[SPH_DIM], body;
+#endif
 } home;
 
 SPH_INLINE home spread_home(const sph_tile *t, uint32_t h)
@@ -100,6 +114,24 @@ SPH_INLINE home spread_home(const sph_tile *t, uint32_t h)
     o.iv = v_set(t->iv[h]);
     return o;
 }
+
+#if SPH_WITH_SOLID
+SPH_INLINE void spread_solid(const sph_solid_homes *t, uint32_t h, const choice *c, home *o)
+{
+    SPH_UNROLL
+    for (int k = 0; k < SPH_NL; k++)
+        o->t[k] = v_set(t->t[k][h]);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_NT; k++)
+        o->r[k] = v_set(c->repulsion ? t->r[k][h] : 0);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        o->k[k] = v_set(c->total ? t->k[k][h] : 0);
+        o->u[k] = v_set(c->hat ? t->u[k][h] : 0);
+    }
+    o->body = v_set(c->total ? t->body[h] : 0);
+}
+#endif
 
 SPH_INLINE vreal dot(const vreal *a, const vreal *b)
 {
@@ -120,17 +152,76 @@ SPH_INLINE vreal printed_weight(uint32_t scheme, const factors *f, vreal ai, vre
     return v_select(usable, w, v_set(1));
 }
 
+#if SPH_WITH_SOLID
+/* a small power by squaring; n is a constant in the fast paths */
+SPH_INLINE vreal power_of(vreal f, uint32_t n)
+{
+    vreal p = n & 1 ? f : v_set(1);
+    const vreal f2 = f * f, f4 = f2 * f2;
+    if (n & 2)
+        p = p * f2;
+    if (n & 4)
+        p = p * f4;
+    return n & 8 ? p * (f4 * f4) : p;
+}
+
+/* what a stress tensor gives: acceleration (T_i + T_j + (R_i + R_j) f^n) . K, and m v_ij (x) K for the velocity gradient */
+SPH_INLINE void solid_pair(const choice *c, const factors *f, const home *h, const sph_thread *th, const sph_tile *t, uint32_t j,
+                           uint32_t nv, bool wall, vreal q, vreal mg, vreal iv, const vreal *kx, const vreal *dv, vreal (*s)[SPH_NV])
+{
+    const sph_solid_tile *st = &th->solid;
+    const bool weak = sph_weak_scheme(c->scheme);
+    const vreal wl = weak ? mg * iv : mg, w = weak ? wl * h->iv : mg;
+    vreal fn = v_set(0);
+    if (c->repulsion && !wall)
+        fn = power_of(k_value(c->kernel, q) * f->inv_wdx, c->repulsion);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        vreal a = v_set(0);
+        SPH_UNROLL
+        for (int l = 0; l < SPH_DIM; l++) {
+            vreal sum = h->t[k * SPH_DIM + l];
+            if (!wall)
+                sum = sum + v_load(st->t[k * SPH_DIM + l] + j);
+            else if (k == l)
+                sum = sum + v_load(t->a + j);
+            if (c->repulsion && !wall)
+                sum = sum + (h->r[sph_sym[k][l]] + v_load(st->r[sph_sym[k][l]] + j)) * fn;
+            a = l ? a + sum * kx[l] : sum * kx[l];
+        }
+        s[SUM_ACC + k][nv] = s[SUM_ACC + k][nv] + a * w;
+        vreal d = dv[k];
+        if (c->hat)
+            d = h->u[k] - (wall ? v_load(t->v[k] + j) : v_load(st->u[k] + j));
+        d = d * wl;
+        SPH_UNROLL
+        for (int l = 0; l < SPH_DIM; l++)
+            s[SUM_L + k * SPH_DIM + l][nv] = s[SUM_L + k * SPH_DIM + l][nv] + d * kx[l];
+    }
+}
+#endif
+
 /* one group of lanes: everything a pair gives to the home particle. wall: the candidates are ghosts */
 SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph_thread *th, const sph_tile *t,
                      uint32_t j, uint32_t nv, bool wall, vreal (*s)[SPH_NV])
 {
-    vreal dx[SPH_DIM], dv[SPH_DIM], dw[SPH_DIM];
+    vreal dx[SPH_DIM], dv[SPH_DIM], dw[SPH_DIM], kx[SPH_DIM]; /* kx: K, the vector that the kernel sees */
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
-        dx[k] = h->x[k] - v_load(t->x[k] + j);
+        kx[k] = dx[k] = h->x[k] - v_load(t->x[k] + j);
     const vreal r2 = dot(dx, dx);
+    vreal k2 = r2;
+#if SPH_HAS_TOTAL
+    if (c->solid && c->total && !wall) {
+        const vint same = v_less(v_set((sph_real)0.5), h->body) & v_equal(h->body, v_load(th->solid.body + j));
+        SPH_UNROLL
+        for (int k = 0; k < SPH_DIM; k++)
+            kx[k] = v_select(same, h->k[k] - v_load(th->solid.k[k] + j), dx[k]);
+        k2 = dot(kx, kx);
+    }
+#endif
 #if SPH_SCALAR
-    if (r2 > f->reach2)
+    if (k2 > f->reach2)
         return;
 #endif
     SPH_UNROLL
@@ -138,22 +229,30 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         dv[k] = dw[k] = h->v[k] - v_load(t->v[k] + j);
     const bool weak = sph_weak_scheme(c->scheme), viscous = sph_viscous(c->viscosity), diffusive = sph_diffusive(c->diffusion);
     const bool needs_iv = weak || diffusive;
-    const vreal q = v_sqrt(r2) * f->inv_h;
+    const int o = c->solid ? SPH_NL : 0; /* where the sums behind the velocity gradient stand */
+    const vreal q = v_sqrt(k2) * f->inv_h;
     const vreal mg = k_slope(c->kernel, q) * v_load(t->m + j);
     const vreal rho = v_load(t->rho + j), aj = v_load(t->a + j);
     const vreal iv = needs_iv ? v_load(t->iv + j) : rho;
     const vreal vr = dot(dv, dx);
 
     /* continuity */
-    vreal con = mg * vr;
-    if (weak)
-        con = con * iv;
-    if (SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK))
-        con = con * printed_weight(c->scheme, f, h->a, aj, h->rho);
-    s[SUM_DRHO][nv] = s[SUM_DRHO][nv] + con;
+    if (!c->solid) {
+        vreal con = mg * vr;
+        if (weak)
+            con = con * iv;
+        if (SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK))
+            con = con * printed_weight(c->scheme, f, h->a, aj, h->rho);
+        s[SUM_DRHO][nv] = s[SUM_DRHO][nv] + con;
+    }
 
-    /* pressure */
-    vreal force;
+    /* pressure, or stress */
+    vreal force = v_set(0);
+#if SPH_WITH_SOLID
+    if (c->solid)
+        solid_pair(c, f, h, th, t, j, nv, wall, q, mg, iv, kx, dv, s);
+    else
+#endif
     if (!weak)
         force = (h->a + aj) * mg;
     else if (SPH_IS(c->scheme, DIRECT))
@@ -219,17 +318,17 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         const vreal w = k_value(c->kernel, q) * v_load(t->m + j) / (h->rho + rho);
         SPH_UNROLL
         for (int k = 0; k < SPH_DIM; k++)
-            s[SUM_XSPH + k][nv] = s[SUM_XSPH + k][nv] - w * dv[k];
+            s[SUM_XSPH + o + k][nv] = s[SUM_XSPH + o + k][nv] - w * dv[k];
     }
     if (SPH_WITH_BOOKS && c->books) {
         /* work of the pair's viscous force on the home particle relative to the partner: pairs of fluid count twice */
         vreal d = SPH_IS(c->viscosity, MORRIS) ? -(fm * dot(dw, dv)) : -(visc * vr);
-        s[SUM_VISC][nv] = s[SUM_VISC][nv] + (wall ? d : d * (sph_real)0.5);
-        s[SUM_DIFF][nv] = s[SUM_DIFF][nv] + diff;
+        s[SUM_VISC + o][nv] = s[SUM_VISC + o][nv] + (wall ? d : d * (sph_real)0.5);
+        s[SUM_DIFF + o][nv] = s[SUM_DIFF + o][nv] + diff;
         if (wall) { /* force of the wall on the fluid times the wall's velocity */
             SPH_UNROLL
             for (int k = 0; k < SPH_DIM; k++)
-                s[SUM_WALL][nv] = s[SUM_WALL][nv] + (force * dx[k] - fm * dw[k]) * v_load(t->v[k] + j);
+                s[SUM_WALL + o][nv] = s[SUM_WALL + o][nv] + (force * dx[k] - fm * dw[k]) * v_load(t->v[k] + j);
         }
     }
 }
@@ -237,10 +336,15 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
 SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, uint32_t h, bool wall)
 {
     const sph_tile *t = wall ? &th->ghost : &th->fluid;
-    const home o = spread_home(&th->home, h);
+    home o = spread_home(&th->home, h);
+#if SPH_WITH_SOLID
+    if (c->solid)
+        spread_solid(&th->solid_home, h, c, &o);
+#endif
     const uint32_t n = t->n;
     vreal s[SPH_SUMS][SPH_NV];
-    const int used = SPH_WITH_BOOKS && c->books ? (int)SUM_FORCE : SPH_WITH_XSPH && c->xsph ? (int)SUM_VISC : (int)SUM_XSPH;
+    const int used = (SPH_WITH_BOOKS && c->books ? (int)SUM_FORCE : SPH_WITH_XSPH && c->xsph ? (int)SUM_VISC : (int)SUM_XSPH) +
+                     (c->solid ? SPH_NL : 0);
     SPH_UNROLL
     for (int a = 0; a < used; a++)
         SPH_UNROLL
@@ -264,7 +368,8 @@ SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, ui
 /* every choice read at run time: the form that covers all */
 static __attribute__((noinline)) void force_any(const choice *c, const factors *f, sph_thread *t, uint32_t h, bool wall)
 {
-    const choice own = *c;
+    choice own = *c;
+    own.solid = false;
     if (SPH_SMALL)
         force_home(&own, f, t, h, SPH_HAS_LAYERED_WALLS && wall);
     else if (SPH_HAS_LAYERED_WALLS && wall)
@@ -273,22 +378,60 @@ static __attribute__((noinline)) void force_any(const choice *c, const factors *
         force_home(&own, f, t, h, false);
 }
 
+#if SPH_WITH_SOLID
+static __attribute__((noinline)) void force_solid(const choice *c, const factors *f, sph_thread *t, uint32_t h, bool wall)
+{
+    choice own = *c;
+    own.solid = true;
+    own.total = SPH_HAS_TOTAL && own.total;
+    own.hat = SPH_HAS_HAT && own.hat;
+    own.repulsion = SPH_HAS_REPULSION ? own.repulsion : 0;
+    if (SPH_SMALL)
+        force_home(&own, f, t, h, SPH_HAS_LAYERED_WALLS && wall);
+    else if (SPH_HAS_LAYERED_WALLS && wall)
+        force_home(&own, f, t, h, true);
+    else
+        force_home(&own, f, t, h, false);
+}
+#endif
+
 #if SPH_WITH_FAST_PATHS
 /* the same text compiled with the choices as constants; one line adds a path */
 #define SPH_FAST_LIST(X)                                                                                    \
     X(w2_av, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION)                                             \
     X(w2_av_h, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC)                                            \
     X(cubic_av, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION)
-#define SPH_FAST_FN(name, kernel, visc, diff)                                                               \
+#define SPH_FAST_FN(name, kernel_, visc, diff)                                                               \
     static __attribute__((noinline)) void force_##name(const factors *f, sph_thread *t, uint32_t homes)    \
     {                                                                                                       \
-        static const choice c = {kernel, SPH_STANDARD, visc, diff, false, false, false};                           \
+        static const choice c = {.kernel = kernel_, .viscosity = visc, .diffusion = diff}; /* standard scheme */     \
         const factors own = *f;                                                                             \
         for (uint32_t h = 0; h < homes; h++)                                                                \
             force_home(&c, &own, t, h, false);                                                              \
     }
 SPH_FAST_LIST(SPH_FAST_FN)
 #undef SPH_FAST_FN
+
+#if SPH_WITH_SOLID
+/* solids with artificial viscosity, standard scheme: kernel, whether tension repels with the fourth power, reference positions */
+#define SPH_FAST_SOLIDS(X)                                                                                  \
+    X(cubic, SPH_CUBIC, 0, false)                                                                           \
+    X(cubic_r, SPH_CUBIC, 4, false)                                                                         \
+    X(w2, SPH_WENDLAND_C2, 0, false)                                                                        \
+    X(w2_r, SPH_WENDLAND_C2, 4, false)                                                                      \
+    X(w2_t, SPH_WENDLAND_C2, 0, true)
+#define SPH_FAST_FN(name, kernel_, power, total_)                                                           \
+    static __attribute__((noinline)) void solid_##name(const factors *f, sph_thread *t, uint32_t homes)     \
+    {                                                                                                       \
+        static const choice c = {.kernel = kernel_, .viscosity = SPH_ARTIFICIAL, .solid = true, .total = SPH_HAS_TOTAL && (total_), \
+                                 .repulsion = power};                                                       \
+        const factors own = *f;                                                                             \
+        for (uint32_t h = 0; h < homes; h++)                                                                \
+            force_home(&c, &own, t, h, false);                                                              \
+    }
+SPH_FAST_SOLIDS(SPH_FAST_FN)
+#undef SPH_FAST_FN
+#endif
 #endif
 
 /* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over the fluid only; its acceleration is
@@ -296,8 +439,22 @@ SPH_FAST_LIST(SPH_FAST_FN)
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
     const sph_config *c = &sim->cfg;
+    const bool solid = sph_has_solids(c), hat = sph_smooths_strain(c);
+    const uint32_t power = sph_repels(c) ? c->stress_exponent : 0;
 #if SPH_WITH_FAST_PATHS
-    if (role == SPH_ROLE_FLUID && SPH_IS(c->scheme, STANDARD) && c->beta == 0 && c->xsph == 0 && !c->books) {
+#if SPH_WITH_SOLID
+    if (solid && role == SPH_ROLE_FLUID && SPH_IS(c->scheme, STANDARD) && c->beta == 0 && c->xsph == 0 && !c->books &&
+        SPH_IS(c->viscosity, ARTIFICIAL) && c->diffusion == SPH_NO_DIFFUSION) {
+#define SPH_FAST_TRY(name, k, n, whole)                                                                     \
+    if (c->kernel == (k) && power == (n) && sph_is_total(c) == (whole)) {                                   \
+        solid_##name(&sim->fac, t, homes);                                                                  \
+        return;                                                                                             \
+    }
+        SPH_FAST_SOLIDS(SPH_FAST_TRY)
+#undef SPH_FAST_TRY
+    }
+#endif
+    if (!solid && role == SPH_ROLE_FLUID && SPH_IS(c->scheme, STANDARD) && c->beta == 0 && c->xsph == 0 && !c->books) {
 #define SPH_FAST_TRY(name, k, visc, diff)                                                                   \
     if (c->kernel == (k) && c->viscosity == (visc) && c->diffusion == (diff)) {                             \
         force_##name(&sim->fac, t, homes);                                                                  \
@@ -307,9 +464,10 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
 #undef SPH_FAST_TRY
     }
 #endif
-    const choice ch = {c->kernel, c->scheme, c->viscosity, c->diffusion, c->beta != 0, sph_uses_xsph(c), sph_keeps_books(c)};
+    const choice ch = {c->kernel, c->scheme, c->viscosity, c->diffusion, c->beta != 0, sph_uses_xsph(c) && !hat,
+                       sph_keeps_books(c), solid, sph_is_total(c), hat, power};
     for (uint32_t h = 0; h < homes; h++) {
-        if (role != SPH_ROLE_FLUID && sim->set[t->home_set[h]].role != SPH_ROLE_FLUID)
+        if (role != SPH_ROLE_FLUID && !sph_is_body(&sim->set[t->home_set[h]]))
             continue;
 #if SPH_HAS_FORCE_WALLS
         if (role == SPH_ROLE_FORCE_WALL) {
@@ -317,7 +475,12 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
             continue;
         }
 #endif
-
+#if SPH_WITH_SOLID
+        if (solid) {
+            force_solid(&ch, &sim->fac, t, h, role == SPH_ROLE_GHOST);
+            continue;
+        }
+#endif
         force_any(&ch, &sim->fac, t, h, role == SPH_ROLE_GHOST);
     }
 }
@@ -325,7 +488,7 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
 static bool is_force_home(const sph_sim *sim, const sph_set *s)
 {
     (void)sim;
-    return s->role == SPH_ROLE_FLUID || (s->role == SPH_ROLE_GHOST && s->compressible && s->kind == SPH_WALL_GHOST);
+    return sph_is_body(s) || (s->role == SPH_ROLE_GHOST && s->compressible && s->kind == SPH_WALL_GHOST);
 }
 
 SPH_INLINE sph_real larger(sph_real a, sph_real b) { return a < b ? b : a; }
@@ -336,14 +499,14 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
     const factors *f = &sim->fac;
     const sph_config *c = &sim->cfg;
     const sph_buffer *b = &sim->buf[sim->dst];
-    const uint32_t i = t->home_at[h];
+    const uint32_t i = t->home_at[h], o = sph_sum_shift(c);
     sph_real body = 0;
-    if (sph_uses_xsph(c))
-        for (int k = 0; k < SPH_DIM; k++)
-            b->xsph[k][i] = v_fold(t->sum[SUM_XSPH + k][h]) * (f->value * (sph_real)(2 * c->xsph));
+    if (sph_uses_xsph(c) && !sph_smooths_strain(c))
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            b->xsph[k][i] = v_fold(t->sum[SUM_XSPH + o + k][h]) * (f->value * (sph_real)(2 * c->xsph));
     if (SPH_HAS_FORCE_WALLS && sim->has_force_wall)
-        for (int k = 0; k < SPH_DIM; k++)
-            acc[k] += t->sum[SUM_FORCE][h][k];
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            acc[k] += t->sum[SUM_FORCE + o][h][k];
     if (SPH_WITH_BODY_FORCE && c->body_force) {
         double x[SPH_DIM], v[SPH_DIM], add[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
@@ -358,12 +521,31 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
         }
     }
     if (sph_keeps_books(c)) { /* powers per unit mass of this particle */
-        sim->power[0][i] = v_fold(t->sum[SUM_VISC][h]) * f->slope;
-        sim->power[1][i] = t->sum[SUM_FORCE][h][SPH_DIM] - v_fold(t->sum[SUM_WALL][h]) * f->slope;
-        sim->power[2][i] = v_fold(t->sum[SUM_DIFF][h]) * f->slope;
+        sim->power[0][i] = v_fold(t->sum[SUM_VISC + o][h]) * f->slope;
+        sim->power[1][i] = t->sum[SUM_FORCE + o][h][SPH_DIM] - v_fold(t->sum[SUM_WALL + o][h]) * f->slope;
+        sim->power[2][i] = v_fold(t->sum[SUM_DIFF + o][h]) * f->slope;
         sim->power[3][i] = body;
     }
 }
+
+#if SPH_HAS_HELD
+/* along the axes on which a set is held it feels no force; what moves it does work: force against it, and its own inertia */
+static void hold(sph_sim *sim, const sph_set *set, uint32_t i, sph_real *acc)
+{
+    const uint32_t held = sph_held(sim, set);
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        if (!(held >> k & 1))
+            continue;
+        const double v = sph_wall_velocity(sim, set, k);
+        const double a = sim->dt > 0 ? (v - sim->now.group[set->group].vel[k]) / sim->dt : 0;
+        if (sph_keeps_books(&sim->cfg))
+            sim->power[1][i] += (sph_real)((a - (double)acc[k]) * v);
+        acc[k] = 0;
+        if (sph_uses_xsph(&sim->cfg))
+            sim->buf[sim->dst].xsph[k][i] = 0;
+    }
+}
+#endif
 
 /* forces and rates of one particle from its sums */
 static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -376,14 +558,26 @@ static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     sph_real d = v_fold(t->sum[SUM_DRHO][h]) * f->slope * set->inv_rho0_r;
     if (f->rate_by_density)
         d *= t->home.rho[h];
+#if SPH_WITH_SOLID
+    if (sph_has_solids(&sim->cfg)) {
+        sph_real raw[SPH_NL];
+        for (uint32_t k = 0; k < SPH_NL; k++)
+            raw[k] = v_fold(t->sum[SUM_L + k][h]) * f->slope;
+        d += sph_stress_rates(sim, set, i, raw, t->home.rho[h]) * t->home.rho[h] * set->inv_rho0_r;
+    }
+#endif
     b->drho[0][i] = d = f->continuity ? d : 0;
-    if (set->role != SPH_ROLE_FLUID)
+    if (!sph_is_body(set))
         return;
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         acc[k] = f->gravity[k] - v_fold(t->sum[SUM_ACC + k][h]) * f->slope;
     if ((SPH_HAS_EXTRAS && f->extras) || (SPH_HAS_FORCE_WALLS && sim->has_force_wall))
         finish_extras(sim, t, h, acc);
+#if SPH_HAS_HELD
+    if (set->held)
+        hold(sim, set, i, acc);
+#endif
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
         b->acc[k][i] = acc[k];
@@ -401,9 +595,11 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_config *c = &sim->cfg;
     const sph_sweep w = {is_force_home,
-                         1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL,
-                         sph_keeps_books(c) || sim->has_force_wall ? SUM_FORCE + 1 : sph_uses_xsph(c) ? SUM_VISC : SUM_XSPH,
+                         SPH_BODIES | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL,
+                         sph_sum_shift(c) + (sph_keeps_books(c) || sim->has_force_wall ? SUM_FORCE + 1 : sph_uses_xsph(c) ? SUM_VISC : SUM_XSPH),
                          sph_diffusive(c->diffusion) || sph_weak_scheme(c->scheme),
+                         sph_has_solids(c) ? SPH_COL_STRESS | (sph_is_total(c) ? SPH_COL_REFERENCE : 0u) |
+                                                 (sph_smooths_strain(c) ? SPH_COL_SMOOTHED : 0u) : 0,
                          force_tile,
                          force_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
@@ -426,7 +622,7 @@ enum { SUM_MW, SUM_VW };
 static bool fluid_home(const sph_sim *sim, const sph_set *s)
 {
     (void)sim;
-    return s->role == SPH_ROLE_FLUID;
+    return sph_is_body(s);
 }
 
 SPH_INLINE void density_tile(uint32_t kernel, const factors *f, sph_thread *th, uint32_t h, const sph_tile *t)
@@ -467,7 +663,7 @@ static void summation_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 }
 static void summation_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {fluid_home, 1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_GHOST, 2, true, density_add, summation_finish};
+    static const sph_sweep w = {fluid_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, 2, true, 0, density_add, summation_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 
@@ -484,7 +680,7 @@ static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 }
 static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {fluid_home, 1u << SPH_ROLE_FLUID, 2, true, density_add, shepard_finish};
+    static const sph_sweep w = {fluid_home, SPH_BODIES, 2, true, 0, density_add, shepard_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 
@@ -501,7 +697,7 @@ static void copy_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_buffer *b = &sim->buf[sim->dst];
     uint32_t last = (chunk + 1) * SPH_LOCAL_CHUNK < sim->next.count ? (chunk + 1) * SPH_LOCAL_CHUNK : sim->next.count;
     for (uint32_t i = chunk * SPH_LOCAL_CHUNK; i < last; i++)
-        if (b->set[0][i] != SPH_DEAD && sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
+        if (b->set[0][i] != SPH_DEAD && sph_is_body(&sim->set[b->set[0][i]]))
             b->rho[0][i] = sim->tmp[i];
     t->work += last - chunk * SPH_LOCAL_CHUNK;
 }

@@ -3,7 +3,7 @@
 #ifndef SPH_FLUID_H
 #define SPH_FLUID_H
 
-#include "sweep.h"
+#include "solid.h"
 
 /* a sum of squares above this counts as not finite: 1e36 leaves room to square no further */
 #define SPH_LIMIT_SQUARE ((sph_real)1e30)
@@ -19,7 +19,10 @@ enum {
     SUM_DIFF,
     SUM_FORCE
 };
-_Static_assert(SUM_FORCE < SPH_SUMS, "SPH_SUMS is too small");
+/* with solids the velocity gradient comes between acceleration and the rest */
+#define SUM_L SUM_XSPH
+SPH_INLINE uint32_t sph_sum_shift(const sph_config *c) { return sph_has_solids(c) ? SPH_NL : 0; }
+_Static_assert(SUM_FORCE + (SPH_WITH_SOLID ? SPH_NL : 0) < SPH_SUMS, "SPH_SUMS is too small");
 
 #define sph_make_factors SPH_NAME(make_factors_)
 void sph_make_factors(sph_sim *sim);

@@ -79,10 +79,13 @@ uint64_t sph_hash(const sph_sim *sim)
    is part of every dump's digest. */
 #define AT(member) (uint16_t) offsetof(sph_config, member)
 static const uint16_t whole_fields[] = {AT(max_particles), AT(on_leave),  AT(on_cross),  AT(kernel),        AT(scheme), AT(density),
-                                        AT(eos),           AT(viscosity), AT(diffusion), AT(shepard_every), AT(integrator)};
+                                        AT(eos),           AT(viscosity), AT(diffusion), AT(shepard_every), AT(integrator),
+                                        AT(solid),         AT(yield),     AT(damage),    AT(max_flaws),     AT(artificial_stress),
+                                        AT(stress_exponent)};
 static const uint16_t real_fields[] = {AT(spacing), AT(smoothing_length), AT(rho0), AT(sound_speed), AT(alpha),
                                        AT(beta),    AT(nu),               AT(delta), AT(xsph),       AT(cfl),
-                                       AT(viscous_factor), AT(force_factor), AT(gravity_factor), AT(dt_max), AT(dt_min)};
+                                       AT(viscous_factor), AT(force_factor), AT(gravity_factor), AT(dt_max), AT(dt_min),
+                                       AT(stress_epsilon), AT(max_stretch)};
 #undef AT
 
 uint64_t sph_hash_config(const sph_config *c)
@@ -94,7 +97,7 @@ uint64_t sph_hash_config(const sph_config *c)
         memcpy(&u, p + whole_fields[i], sizeof u);
         h = sph_mix(h, u);
     }
-    h = sph_mix(sph_mix(h, c->pressure_floor), c->books);
+    h = sph_mix(sph_mix(sph_mix(h, c->pressure_floor), c->books), c->xsph_strain);
     for (size_t i = 0; i < sizeof real_fields / sizeof *real_fields; i++) {
         double d;
         memcpy(&d, p + real_fields[i], sizeof d);

@@ -6,6 +6,7 @@
    sort.c     moves particles and orders them by (cell, id): the start of every stage
    sweep.c    the one neighbour sweep: candidates of a cell go into tiles, sums come out
    fluid.c    pair formulas of water: density, momentum, viscosity, diffusion, XSPH, filters
+   solid.c    stress: rates, corrected gradients, yield; solid.h its pair formulas; damage.c flaws and damage
    walls.c    boundary forces, Adami's extrapolation, crossing, moving walls
    step.c     integrators as lists of passes, slices, threads, time step, failure
    books.c    totals, probes, gauges; hash.c state hash; dump.c dump and restore
@@ -30,6 +31,12 @@
 typedef sph_int sph_pos;
 #define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
 
+/* A tensor of SPH_DIM^2 components, row by row; a symmetric one: the diagonal, then xy, xz, yz. The deviatoric stress lacks the
+   last diagonal component in 3-D, which follows from the others (in 2-D and 1-D the missing ones are out of the plane). */
+#define SPH_NL (SPH_DIM * SPH_DIM)
+#define SPH_NT (SPH_DIM * (SPH_DIM + 1) / 2)
+#define SPH_NS (SPH_DIM == 1 ? 1 : SPH_DIM == 2 ? 3 : 5)
+
 /* the one list of state fields: name, element type, components, unit, condition on the configuration */
 #define SPH_STATE_FIELDS(X)                                                                                 \
     X(pos, sph_pos, SPH_DIM, "quantum", true)                                                               \
@@ -38,6 +45,11 @@ typedef sph_int sph_pos;
     X(acc, sph_real, SPH_DIM, "m/s^2", true)                                                                \
     X(drho, sph_real, 1, "1/s", true)                                                                       \
     X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c))                                                         \
+    X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c)) /* deviatoric: xx yy xy, xx yy xy xz yz */         \
+    X(dstress, sph_real, SPH_NS, "Pa/s", sph_has_solids(c))                                                 \
+    X(plastic, sph_real, 1, "1", sph_yields(c))                                                             \
+    X(damage, sph_real, 1, "1", sph_damages(c)) /* D^(1/SPH_DIM) */                                         \
+    X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c)) /* displacement since the start */               \
     X(id, uint32_t, 1, "1", true) /* within a step: the particle's index in the source buffer */            \
     X(set, uint8_t, 1, "1", true)
 
@@ -49,15 +61,18 @@ typedef struct sph_buffer {
 
 /* one particle set: constants that its particles share */
 typedef struct sph_set {
-    uint32_t role, kind, group; /* group: SPH_MAX_GROUPS for fluid */
+    uint32_t role, kind, group; /* group: SPH_MAX_GROUPS if it moves by forces alone */
+    uint32_t eos, body, held;   /* held: bits 1 << axis */
     bool compressible, no_slip, corner;
     double mass, rho0, c0;
+    double shear, yield, hardening, crack_rate; /* solids; crack_rate: crack speed over flaw radius, 1/s */
     double strength;
     double origin[SPH_DIM];     /* middle of the wall's face at displacement 0, from the domain's low corner (m) */
     double normal[SPH_DIM];     /* into the fluid */
     double tangent[SPH_DIM];    /* 3-D: one of the two in-plane directions */
     double half[2], thick;      /* wall region behind the face: half extents along tangents, depth (m) */
     sph_pos low[SPH_DIM], high[SPH_DIM]; /* box around that region, quanta, at displacement 0 */
+    sph_real shear_r;
     sph_real mass_r, rho0_r, inv_rho0_r, b_r; /* what the sweep reads; b: pressure scale of the equation of state */
 } sph_set;
 
@@ -82,6 +97,7 @@ typedef struct sph_peaks {
 /* constants of the pair formulas (fluid.c) */
 typedef struct sph_factors {
     sph_real inv_h, eta, reach, reach2, slope, value;
+    sph_real inv_wdx, repulsion; /* artificial stress: 1/(W(dx) without its scale), epsilon */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], gravity[SPH_DIM], small_p;
     bool rate_by_density, continuity, extras;
 } sph_factors;
@@ -140,6 +156,10 @@ struct sph_sim {
     uint32_t *cell;                  /* cells + 1 starts */
     uint32_t *slab;                  /* starts of the slabs in the source buffer */
     sph_real *tmp;                   /* filtered density */
+    sph_real *corr[SPH_NL];          /* M^-1 of a particle of the destination buffer (solid.c) */
+    uint32_t *flaw_start;            /* by id: its flaws are flaw[flaw_start[id] .. flaw_start[id + 1]) */
+    float *flaw;                     /* thresholds */
+    uint32_t flaws;
     sph_real *power[4];              /* viscous, wall, diffusion, body-force power of a particle (books) */
     double *partial;                 /* SPH_POWERS sums a chunk (books) */
     uint32_t partials;
@@ -210,6 +230,14 @@ struct sph_pass {
 _Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 && SPH_INTEGRATORS_IN != 0,
                "modules.h: at least one smoothing kernel, scheme, equation of state and integrator must be in");
 
+#define SPH_SOLIDS_IN                                                                                       \
+    (1 << SPH_NO_SOLID | SPH_WITH_SOLID << SPH_UPDATED | (SPH_WITH_SOLID && SPH_WITH_CORRECTED) << SPH_CORRECTED |   \
+     SPH_HAS_TOTAL << SPH_TOTAL)
+#define SPH_YIELDS_IN (1 << SPH_NO_YIELD | SPH_HAS_YIELD << SPH_VON_MISES | SPH_HAS_YIELD << SPH_VON_MISES_GRAY)
+#define SPH_DAMAGES_IN (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
+#define SPH_REPULSIONS_IN                                                                                   \
+    (1 << SPH_NO_ARTIFICIAL_STRESS | SPH_HAS_REPULSION << SPH_PRINCIPAL | SPH_HAS_REPULSION << SPH_COMPONENTS)
+
 SPH_INLINE bool sph_in(uint32_t mask, uint32_t choice) { return choice < 32 && mask >> choice & 1; }
 
 /* questions about choices that fold to constants where a module is left out */
@@ -223,6 +251,19 @@ SPH_INLINE bool sph_sums_density(const sph_config *c) { return SPH_IS(c->density
 SPH_INLINE bool sph_keeps_books(const sph_config *c) { return SPH_WITH_BOOKS && c->books; }
 SPH_INLINE bool sph_uses_xsph(const sph_config *c) { return SPH_WITH_XSPH && c->xsph != 0; }
 SPH_INLINE bool sph_filters(const sph_config *c) { return SPH_WITH_SHEPARD && c->shepard_every != 0; }
+
+SPH_INLINE bool sph_has_solids(const sph_config *c) { return SPH_WITH_SOLID && c->solid != SPH_NO_SOLID; }
+SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->solid == SPH_TOTAL; }
+SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
+SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
+SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }
+SPH_INLINE bool sph_repels(const sph_config *c) { return SPH_HAS_REPULSION && c->artificial_stress != SPH_NO_ARTIFICIAL_STRESS; }
+SPH_INLINE bool sph_smooths_strain(const sph_config *c) { return SPH_HAS_HAT && c->xsph_strain && sph_has_solids(c); }
+
+/* whether a set is made of what moves by forces, not wall */
+#define SPH_BODIES (1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_SOLID)
+SPH_INLINE bool sph_is_solid(const sph_set *s) { return SPH_WITH_SOLID && s->role == SPH_ROLE_SOLID; }
+SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */
 #define sph_sim_magic 0x5350485f53494d31u
@@ -277,16 +318,21 @@ SPH_INLINE uint32_t sph_run_end(const uint8_t *set, uint32_t s, uint32_t e)
 /* whether a wall group is gone, and how fast it moves along an axis (m/s), at the end of the step under way */
 SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)
 {
-    return SPH_WITH_MOVING_WALLS && sim->next.group[s->group].removed;
+    return SPH_HAS_GROUPS && sim->next.group[s->group].removed;
+}
+/* the axes along which a set moves as it is told, as bits */
+SPH_INLINE uint32_t sph_held(const sph_sim *sim, const sph_set *s)
+{
+    return SPH_HAS_HELD && s->held && !sim->next.group[s->group].removed ? s->held : 0;
 }
 SPH_INLINE double sph_wall_velocity(const sph_sim *sim, const sph_set *s, uint32_t axis)
 {
-    return SPH_WITH_MOVING_WALLS ? sim->next.group[s->group].vel[axis] : 0;
+    return SPH_HAS_GROUPS ? sim->next.group[s->group].vel[axis] : 0;
 }
 /* its displacement, quanta */
 SPH_INLINE sph_pos sph_wall_moved(const sph_sim *sim, const sph_set *s, uint32_t axis)
 {
-    return SPH_WITH_MOVING_WALLS ? sim->next.group[s->group].moved[axis] : 0;
+    return SPH_HAS_GROUPS ? sim->next.group[s->group].moved[axis] : 0;
 }
 
 /* cell of a position along axis k; the position must be inside the domain */

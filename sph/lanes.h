@@ -96,6 +96,7 @@ SPH_INLINE vint v_less_int(vint a, vint b) { return a < b; }
 /* a where m holds, else 0 */
 SPH_INLINE vreal v_where(vint m, vreal a) { return (vreal)(m & (vint)a); }
 SPH_INLINE vint v_less(vreal a, vreal b) { return a < b; }
+SPH_INLINE vint v_equal(vreal a, vreal b) { return a == b; }
 SPH_INLINE vreal v_select(vint m, vreal a, vreal b)
 {
     return (vreal)((m & (vint)a) | (~m & (vint)b));
@@ -113,6 +114,7 @@ SPH_INLINE vint v_set_int(sph_int a) { return a; }
 SPH_INLINE vint v_less_int(vint a, vint b) { return -(vint)(a < b); }
 SPH_INLINE vreal v_where(vint m, vreal a) { return m ? a : 0; }
 SPH_INLINE vint v_less(vreal a, vreal b) { return -(vint)(a < b); }
+SPH_INLINE vint v_equal(vreal a, vreal b) { return -(vint)!(a < b || b < a); }
 SPH_INLINE vreal v_select(vint m, vreal a, vreal b) { return m ? a : b; }
 #endif
 

@@ -95,6 +95,7 @@ static sph_set *new_wall_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
     s->group = sim->groups;
     s->compressible = w->compressible;
     s->no_slip = w->no_slip;
+    s->eos = sim->cfg.eos;
     s->rho0 = sim->cfg.rho0;
     s->c0 = sim->cfg.sound_speed;
     s->mass = s->rho0 * sph_setup_cell_volume(sim);
@@ -409,7 +410,7 @@ sph_status sph_add_wall_plane(sph_sim *sim, const sph_wall *wall, const double *
 
 #endif
 
-#if SPH_WITH_MOVING_WALLS
+#if SPH_HAS_GROUPS
 sph_status sph_remove_wall_at(sph_sim *sim, uint32_t group, double t)
 {
     sph_status st = sim ? sph_setup_idle(sim, "sph_remove_wall") : SPH_BAD_ARGUMENT;
@@ -450,5 +451,14 @@ void sph_motion_table(void *ctx, double t, double *displacement, double *velocit
     }
     displacement[m->axis] = x - m->x[0];
     velocity[m->axis] = v;
+}
+
+void sph_motion_steady(void *ctx, double t, double *displacement, double *velocity)
+{
+    const sph_steady *m = ctx;
+    for (int k = 0; k < SPH_DIM; k++) {
+        displacement[k] = m ? t * (m->v[k] + 0.5 * m->a[k] * t) : 0;
+        velocity[k] = m ? m->v[k] + m->a[k] * t : 0;
+    }
 }
 #endif

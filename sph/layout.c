@@ -50,6 +50,9 @@ sph_config sph_config_default(void)
     c.viscous_factor = 0.125;
     c.force_factor = 0.25;
     c.gravity_factor = 0.5;
+    c.stress_exponent = 4;
+    c.stress_epsilon = 0.3;
+    c.max_stretch = 1.5;
     return c;
 }
 
@@ -95,6 +98,9 @@ static const range_check ranges[] = {
     {"gravity_factor", "> 0 and <= 10", AT(gravity_factor), REAL, true, 0, 10},
     {"dt_max", ">= 0 (0: none)", AT(dt_max), REAL, false, 0, SPH_HUGE},
     {"dt_min", ">= 0", AT(dt_min), REAL, false, 0, SPH_HUGE},
+    {"stress_exponent", "1 .. 8", AT(stress_exponent), WHOLE, false, 1, 8},
+    {"stress_epsilon", "0 .. 10", AT(stress_epsilon), REAL, false, 0, 10},
+    {"max_stretch", "1 .. 8", AT(max_stretch), REAL, false, 1, 8},
     {"lo", "finite", AT(lo), VECTOR, false, -SPH_HUGE, SPH_HUGE},
     {"hi", "at least a spacing above lo on every axis, and finite", AT(hi), VECTOR, false, -SPH_HUGE, SPH_HUGE},
     {"gravity", "finite", AT(gravity), VECTOR, false, -1e15f, 1e15f},
@@ -150,10 +156,33 @@ static sph_status check_modules(const sph_config *c, sph_report *r)
         what = "body_force";
     if (!SPH_WITH_STAGE_LOG && c->stage_log)
         what = "stage_log";
+    if (!SPH_HAS_HAT && c->xsph_strain)
+        what = "xsph_strain";
     if (what)
         return refuse(r, what, SPH_LEFT_OUT, 1);
     if (SPH_IS(c->density, SUMMATION) && (c->diffusion || c->shepard_every))
         return refuse(r, "density", "SPH_CONTINUITY when diffusion or the Shepard filter is on", c->density);
+    return SPH_OK;
+}
+
+/* what the choices of solids ask of each other */
+static sph_status check_solids(const sph_config *c, sph_report *r)
+{
+    const bool solid = sph_has_solids(c);
+    if (!solid && (c->yield || c->damage || c->artificial_stress || c->xsph_strain))
+        return refuse(r, "solid", "a solid form, where yield, damage, artificial_stress or xsph_strain is on", c->solid);
+    if (!solid)
+        return SPH_OK;
+    if (c->scheme != SPH_STANDARD && c->scheme != SPH_WEAK)
+        return refuse(r, "scheme", "SPH_STANDARD or SPH_WEAK with solids", c->scheme);
+    if (c->density != SPH_CONTINUITY || c->shepard_every)
+        return refuse(r, "density", "SPH_CONTINUITY, without the Shepard filter, with solids", c->density);
+    if (sph_is_total(c) && c->artificial_stress)
+        return refuse(r, "artificial_stress", "none with SPH_TOTAL", c->artificial_stress);
+    if (c->xsph_strain && !(c->xsph > 0))
+        return refuse(r, "xsph", "> 0 where xsph_strain is on", c->xsph);
+    if (sph_damages(c) && (c->max_flaws < 1 || c->max_flaws > 1u << 30))
+        return refuse(r, "max_flaws", "1 .. 2^30 with damage", c->max_flaws);
     return SPH_OK;
 }
 
@@ -185,6 +214,12 @@ static const struct {
      1 << SPH_NO_DIFFUSION | SPH_WITH_MOLTENI << SPH_MOLTENI | SPH_WITH_HYDROSTATIC << SPH_HYDROSTATIC},
     {"integrator", "one of SPH_PREDICTOR_CORRECTOR .. SPH_RUNGE_KUTTA_MOMENTUM", AT(integrator), SPH_INTEGRATORS,
      SPH_INTEGRATORS_IN},
+    {"solid", "one of SPH_NO_SOLID .. SPH_TOTAL", AT(solid), SPH_SOLIDS, SPH_SOLIDS_IN},
+    {"yield", "one of SPH_NO_YIELD .. SPH_VON_MISES_GRAY", AT(yield), SPH_YIELDS, SPH_YIELDS_IN},
+    {"damage", SPH_DIM == 1 ? "SPH_NO_DAMAGE in 1-D" : "one of SPH_NO_DAMAGE .. SPH_BENZ_ASPHAUG_GRAY", AT(damage),
+     SPH_DIM == 1 ? 1 : SPH_DAMAGES, SPH_DAMAGES_IN},
+    {"artificial_stress", "one of SPH_NO_ARTIFICIAL_STRESS .. SPH_COMPONENTS", AT(artificial_stress), SPH_ARTIFICIAL_STRESSES,
+     SPH_REPULSIONS_IN},
     {"on_leave", "SPH_FAIL or SPH_REMOVE", AT(on_leave), SPH_REMOVE + 1, 1 << SPH_FAIL | 1 << SPH_REMOVE},
     {"on_cross", "one of SPH_FAIL .. SPH_IGNORE", AT(on_cross), SPH_POLICIES, (1 << SPH_POLICIES) - 1},
 };
@@ -198,7 +233,9 @@ static sph_status check_choices(const sph_config *c, sph_report *r)
             return refuse(r, choices[i].what, v >= choices[i].count ? choices[i].allowed : SPH_LEFT_OUT, v);
     }
     sph_status st = check_faces(c, r);
-    return st ? st : check_modules(c, r);
+    if (!st)
+        st = check_modules(c, r);
+    return st ? st : check_solids(c, r);
 }
 #undef AT
 
@@ -218,6 +255,7 @@ sph_status sph_config_check(const sph_config *c, sph_report *r)
 static sph_status make_grid(const sph_config *c, sph_grid *s, sph_report *r)
 {
     s->support = sph_kernel_support(c->kernel) * c->smoothing_length;
+    const double cell = sph_is_total(c) ? s->support * c->max_stretch : s->support; /* at least so wide */
     double longest = 0;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         s->length[k] = c->hi[k] - c->lo[k];
@@ -237,7 +275,7 @@ static sph_status make_grid(const sph_config *c, sph_grid *s, sph_report *r)
     double cells = 1;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         s->extent[k] = (sph_pos)(s->length[k] / quantum + 0.5);
-        double n = s->length[k] / (s->support * 1.000001);
+        double n = s->length[k] / (cell * 1.000001);
         s->ncell[k] = n < 1 ? 1 : (uint32_t)n;
         if (SPH_IS(c->face[k][0], PERIODIC) && s->ncell[k] < 3)
             return refuse(r, "hi", "at least three supports from lo along a periodic axis", s->length[k]);
@@ -301,7 +339,7 @@ static const struct {
 
 static void lay_out_state(const sph_config *c, sph_sim *s, uint32_t b, layout *l)
 {
-    uint32_t wanted = 0, bit = 0;
+    uint32_t wanted = 0, bit = 0; /* a bit for each field */
 #define SPH_FIELD_WANTED(name, type, comps, unit, when) wanted |= (uint32_t)(when) << bit++;
     SPH_STATE_FIELDS(SPH_FIELD_WANTED)
 #undef SPH_FIELD_WANTED
@@ -327,6 +365,12 @@ static void lay_out(const sph_config *c, const sph_grid *g, sph_sim *s, layout *
     SPH_PLACE(slab, "slab starts", (size_t)g->slabs + 1, sizeof(uint32_t));
     if (sph_filters(c) || sph_sums_density(c))
         SPH_PLACE(tmp, "filtered density", n, sizeof(sph_real));
+    for (uint32_t k = 0; k < SPH_NL && sph_corrects(c); k++)
+        SPH_PLACE(corr[k], "gradient correction", n, sizeof(sph_real));
+    if (sph_damages(c)) {
+        SPH_PLACE(flaw_start, "flaws of a particle", (size_t)c->max_particles + 1, sizeof(uint32_t));
+        SPH_PLACE(flaw, "flaws", c->max_flaws, sizeof(float));
+    }
     if (sph_keeps_books(c)) {
         for (uint32_t k = 0; k < SPH_POWERS; k++)
             SPH_PLACE(power[k], "powers for the books", n, sizeof(sph_real));

@@ -145,6 +145,33 @@
 #define SPH_WITH_MOVING_WALLS SPH_WITH_ALL
 #endif
 
+/* solids: hypoelastic stress; corrected gradients; total-Lagrangian form; yield; damage; artificial stress; strain rates
+   from smoothed velocities; sets that are held or pulled. All but the first need SOLID. */
+#ifndef SPH_WITH_SOLID
+#define SPH_WITH_SOLID SPH_WITH_ALL
+#endif
+#ifndef SPH_WITH_CORRECTED
+#define SPH_WITH_CORRECTED SPH_WITH_ALL
+#endif
+#ifndef SPH_WITH_TOTAL_LAGRANGIAN
+#define SPH_WITH_TOTAL_LAGRANGIAN SPH_WITH_ALL
+#endif
+#ifndef SPH_WITH_YIELD
+#define SPH_WITH_YIELD SPH_WITH_ALL
+#endif
+#ifndef SPH_WITH_DAMAGE
+#define SPH_WITH_DAMAGE SPH_WITH_ALL
+#endif
+#ifndef SPH_WITH_ARTIFICIAL_STRESS
+#define SPH_WITH_ARTIFICIAL_STRESS SPH_WITH_ALL
+#endif
+#ifndef SPH_WITH_XSPH_STRAIN
+#define SPH_WITH_XSPH_STRAIN SPH_WITH_ALL
+#endif
+#ifndef SPH_WITH_HELD
+#define SPH_WITH_HELD SPH_WITH_ALL
+#endif
+
 /* a body force beside gravity; work and dissipation (books); the stage log */
 #ifndef SPH_WITH_BODY_FORCE
 #define SPH_WITH_BODY_FORCE SPH_WITH_ALL
@@ -191,6 +218,15 @@
 #define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */
 #define SPH_HAS_RUNGE_KUTTA (SPH_WITH_RUNGE_KUTTA || SPH_WITH_RUNGE_KUTTA_MOMENTUM)
 #define SPH_HAS_RATES_FIRST (SPH_WITH_KICK_DRIFT_KICK || SPH_WITH_LEAP_FROG) /* a sweep for the density of its own */
+
+#define SPH_HAS_HELD (SPH_WITH_SOLID && SPH_WITH_HELD)
+#define SPH_HAS_GROUPS (SPH_WITH_MOVING_WALLS || SPH_HAS_HELD)
+#define SPH_HAS_CORRECTION (SPH_WITH_SOLID && (SPH_WITH_CORRECTED || SPH_WITH_TOTAL_LAGRANGIAN))
+#define SPH_HAS_TOTAL (SPH_WITH_SOLID && SPH_WITH_TOTAL_LAGRANGIAN)
+#define SPH_HAS_YIELD (SPH_WITH_SOLID && SPH_WITH_YIELD)
+#define SPH_HAS_DAMAGE (SPH_WITH_SOLID && SPH_WITH_DAMAGE && SPH_DIM > 1)
+#define SPH_HAS_REPULSION (SPH_WITH_SOLID && SPH_WITH_ARTIFICIAL_STRESS)
+#define SPH_HAS_HAT (SPH_WITH_SOLID && SPH_WITH_XSPH && SPH_WITH_XSPH_STRAIN)
 
 /* true if `choice` is SPH_<name> and that was compiled in: how the kernel asks for a choice everywhere */
 #define SPH_IS(choice, name) (SPH_WITH_##name && (choice) == SPH_##name)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* setup.c: sets, particles, lattices, initial fields, the equations of state in double. Runs between steps only. */
+#include "dmath.h"
 #include "setup.h"
 
 sph_status sph_setup_bad(sph_sim *sim, const char *what, const char *allowed, double value)
@@ -39,8 +40,9 @@ uint32_t sph_setup_intervals(double length, double dx)
 void sph_setup_finish_set(sph_sim *sim, sph_set *s)
 {
     double scale = s->c0 * s->c0 * s->rho0;
-    if (SPH_IS(sim->cfg.eos, TAIT))
+    if (SPH_IS(s->eos, TAIT))
         scale /= 7;
+    s->shear_r = (sph_real)s->shear;
     s->mass_r = (sph_real)s->mass;
     s->rho0_r = (sph_real)s->rho0;
     s->inv_rho0_r = (sph_real)(1 / s->rho0);
@@ -48,7 +50,9 @@ void sph_setup_finish_set(sph_sim *sim, sph_set *s)
     uint64_t h = sim->setup_hash;
     h = sph_mix(h, (uint64_t)s->role | (uint64_t)s->kind << 8 | (uint64_t)s->group << 16 |
                        (uint64_t)s->compressible << 32 | (uint64_t)s->no_slip << 33 | (uint64_t)s->corner << 34);
-    const double v[] = {s->mass, s->rho0, s->c0, s->strength, s->thick, s->half[0], s->half[1]};
+    h = sph_mix(h, (uint64_t)s->eos | (uint64_t)s->body << 8 | (uint64_t)s->held << 16);
+    const double v[] = {s->mass, s->rho0, s->c0, s->strength, s->thick, s->half[0], s->half[1],
+                        s->shear, s->yield, s->hardening, s->crack_rate};
     for (size_t i = 0; i < sizeof v / sizeof *v; i++)
         h = sph_mix_double(h, v[i]);
     for (int k = 0; k < SPH_DIM; k++)
@@ -64,31 +68,110 @@ double sph_setup_cell_volume(const sph_sim *sim)
     return v;
 }
 
-sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
+/* begins a set of fluid or solid: what both have; *out is the place for the rest */
+static sph_status begin_body(sph_sim *sim, const char *call, const sph_fluid *f, uint32_t *set, sph_set **out)
 {
-    sph_status st = sph_setup_idle(sim, "sph_add_fluid");
+    sph_status st = sph_setup_idle(sim, call);
     if (st)
         return st;
     if (!set)
         return sph_setup_bad(sim, "set", "a place for the set's number", 0);
-    double mass = f ? f->mass : 0, rho0 = f ? f->rho0 : 0, c0 = f ? f->sound_speed : 0;
-    if ((st = check_positive(sim, "fluid.mass", mass, 1e30f)) != SPH_OK ||
-        (st = check_positive(sim, "fluid.rho0", rho0, 1e30f)) != SPH_OK ||
-        (st = check_positive(sim, "fluid.sound_speed", c0, 1e15f)) != SPH_OK)
+    if ((st = check_positive(sim, "mass", f->mass, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, "rho0", f->rho0, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, "sound_speed", f->sound_speed, 1e15f)) != SPH_OK)
         return st;
+    if (f->own_eos && !sph_in(SPH_EOSES_IN, f->eos))
+        return sph_setup_bad(sim, "eos", "one of SPH_TAIT .. SPH_ISOTHERMAL, compiled in (modules.h)", f->eos);
     if (sim->sets == sim->cfg.max_sets)
         return sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most max_sets", sim->sets, SPH_NO_PARTICLE);
     sph_set *s = &sim->set[sim->sets];
     memset(s, 0, sizeof *s);
-    s->role = SPH_ROLE_FLUID;
     s->group = SPH_MAX_GROUPS;
-    s->rho0 = rho0 > 0 ? rho0 : sim->cfg.rho0;
-    s->c0 = c0 > 0 ? c0 : sim->cfg.sound_speed;
-    s->mass = mass > 0 ? mass : s->rho0 * sph_setup_cell_volume(sim);
+    s->eos = f->own_eos ? f->eos : sim->cfg.eos;
+    s->rho0 = f->rho0 > 0 ? f->rho0 : sim->cfg.rho0;
+    s->c0 = f->sound_speed > 0 ? f->sound_speed : sim->cfg.sound_speed;
+    s->mass = f->mass > 0 ? f->mass : s->rho0 * sph_setup_cell_volume(sim);
+    *out = s;
+    return SPH_OK;
+}
+
+sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
+{
+    static const sph_fluid usual = {0, 0, 0, false, 0};
+    sph_set *s;
+    sph_status st = begin_body(sim, "sph_add_fluid", f ? f : &usual, set, &s);
+    if (st)
+        return st;
+    s->role = SPH_ROLE_FLUID;
     sph_setup_finish_set(sim, s);
     *set = sim->sets++;
     return SPH_OK;
 }
+
+#if SPH_WITH_SOLID
+/* what sph_add_solid asks of a material beyond a fluid's */
+static sph_status check_solid(sph_sim *sim, const sph_solid *m)
+{
+    const struct {
+        const char *what;
+        double v;
+    } real[] = {{"shear", m->shear},           {"yield", m->yield}, {"hardening", m->hardening}, {"crack_speed", m->crack_speed},
+                {"flaw_radius", m->flaw_radius}};
+    if (!sph_has_solids(&sim->cfg))
+        return sph_setup_bad(sim, "solid", "a configuration with a solid form", sim->cfg.solid);
+    for (size_t i = 0; i < sizeof real / sizeof *real; i++)
+        if (!(real[i].v >= 0 && real[i].v < 1e30))
+            return sph_setup_bad(sim, real[i].what, "0 .. 1e30", real[i].v);
+    if (m->yield > 0 && (!sph_yields(&sim->cfg) || !(m->shear > 0)))
+        return sph_setup_bad(sim, "yield", "0, or a configuration with yield and shear > 0", m->yield);
+    if (sph_damages(&sim->cfg) && !(m->shear > 0))
+        return sph_setup_bad(sim, "shear", "> 0 with damage", m->shear);
+    if (m->body > 255)
+        return sph_setup_bad(sim, "body", "0 .. 255", m->body);
+    if (m->held >> SPH_DIM || (m->held && !SPH_HAS_HELD))
+        return sph_setup_bad(sim, "held", SPH_HAS_HELD ? "bits of axes" : "0: held sets were left out (modules.h)", m->held);
+    if (m->motion && !m->held)
+        return sph_setup_bad(sim, "motion", "null, or held along an axis", 1);
+    if (m->held && sim->groups == SPH_MAX_GROUPS)
+        return sph_error(sim, SPH_TOO_MANY_SETS, "wall groups and held sets", "at most SPH_MAX_GROUPS", sim->groups, SPH_NO_PARTICLE);
+    return SPH_OK;
+}
+
+sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32_t *group)
+{
+    sph_set *s;
+    if (!sim || !m)
+        return sph_setup_bad(sim, "solid", "a material", 0);
+    const sph_fluid as_fluid = {m->mass, m->rho0, m->sound_speed, true, SPH_LINEAR};
+    sph_status st = begin_body(sim, "sph_add_solid", &as_fluid, set, &s);
+    if (st || (st = check_solid(sim, m)) != SPH_OK)
+        return st;
+    s->role = SPH_ROLE_SOLID;
+    s->shear = m->shear;
+    s->yield = m->yield;
+    s->hardening = m->hardening;
+    s->body = m->body;
+    const double volume = s->mass / s->rho0;
+    double radius = m->flaw_radius; /* of the disc or ball with the particle's volume */
+    if (!(radius > 0))
+        radius = SPH_DIM == 3 ? sph_pow(volume * 3 / (4 * 3.14159265358979323846), 1.0 / 3) : __builtin_sqrt(volume / 3.14159265358979323846);
+    s->crack_rate = (m->crack_speed > 0 ? m->crack_speed : 0.4 * s->c0) / radius;
+    if (m->held) {
+        s->held = m->held;
+        s->group = sim->groups;
+        sim->group[sim->groups] = (sph_group){m->motion, m->motion_ctx};
+        memset(&sim->now.group[sim->groups], 0, sizeof sim->now.group[0]);
+        sim->now.group[sim->groups].remove_at = 1e300;
+        if (group)
+            *group = sim->groups;
+        sim->groups++;
+    } else if (group)
+        *group = SPH_MAX_GROUPS;
+    sph_setup_finish_set(sim, s);
+    *set = sim->sets++;
+    return SPH_OK;
+}
+#endif
 
 /* ---- particles ---- */
 
@@ -117,7 +200,15 @@ sph_status sph_setup_append(sph_sim *sim, uint32_t set, const double *x, const d
         b->acc[k][n] = 0;
         if (b->xsph[k])
             b->xsph[k][n] = 0;
+        if (SPH_HAS_TOTAL && b->shift[k])
+            b->shift[k][n] = 0;
     }
+    for (int k = 0; k < SPH_NS && sph_has_solids(&sim->cfg); k++)
+        b->stress[k][n] = b->dstress[k][n] = 0;
+    if (SPH_HAS_YIELD && b->plastic[0])
+        b->plastic[0][n] = 0;
+    if (SPH_HAS_DAMAGE && b->damage[0])
+        b->damage[0][n] = 0;
     b->rho[0][n] = (sph_real)d;
     b->drho[0][n] = 0;
     b->id[0][n] = n;
@@ -153,8 +244,8 @@ sph_status sph_setup_end_adding(sph_sim *sim, uint32_t before, sph_status st)
 
 static sph_status check_set(sph_sim *sim, uint32_t set)
 {
-    if (set >= sim->sets || sim->set[set].role != SPH_ROLE_FLUID)
-        return sph_setup_bad(sim, "set", "a number given by sph_add_fluid", set);
+    if (set >= sim->sets || !sph_is_body(&sim->set[set]))
+        return sph_setup_bad(sim, "set", "a number given by sph_add_fluid or sph_add_solid", set);
     return SPH_OK;
 }
 
@@ -356,20 +447,21 @@ static __attribute__((noinline)) double seventh(double d)
 double sph_pressure(const sph_sim *sim, const sph_set *s, double d)
 {
     double p, b = (double)s->b_r;
-    if (SPH_IS(sim->cfg.eos, LINEAR))
+    if (SPH_IS(s->eos, LINEAR))
         p = b * d;
-    else if (SPH_IS(sim->cfg.eos, ISOTHERMAL))
+    else if (SPH_IS(s->eos, ISOTHERMAL))
         p = b * (1 + d);
     else
         p = b * seventh(d);
-    return sim->cfg.pressure_floor && p < 0 ? 0 : p;
+    return sim->cfg.pressure_floor && p < 0 && !sph_is_solid(s) ? 0 : p;
 }
 double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
 {
     double y = p / (double)s->b_r;
-    if (SPH_IS(sim->cfg.eos, LINEAR))
+    (void)sim;
+    if (SPH_IS(s->eos, LINEAR))
         return y;
-    if (SPH_IS(sim->cfg.eos, ISOTHERMAL))
+    if (SPH_IS(s->eos, ISOTHERMAL))
         return y - 1;
     if (y < -0.99)
         y = -0.99;

@@ -9,6 +9,7 @@
    dst.id holds each particle's index in src until the stage's last pass writes the id itself. Costs the table of cells
    (4 bytes each) and of slabs. */
 #include "fluid.h"
+#include "solid.h"
 
 #define BLOCK SPH_BLOCK
 typedef sph_block block;
@@ -30,6 +31,8 @@ static advance stage_advance(const sph_sim *sim)
     default: return (advance){0, 0, 0, 0, 1};
     }
 }
+
+sph_real sph_stage_rate(const sph_sim *sim) { return sim->dt > 0 ? stage_advance(sim).rate / (sph_real)sim->dt : 0; }
 
 /* puts a coordinate that left the domain back by the face's rule: 0 fine, 1 reflected, 2 left */
 static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
@@ -126,6 +129,24 @@ static bool move_wall(const sph_sim *sim, const advance *a, const sph_set *s, ui
     return fine;
 }
 
+#if SPH_HAS_HELD
+/* along the axes on which a set is held its particles go where the set goes; returns false where one leaves the domain */
+static bool hold(const sph_sim *sim, const sph_set *s, uint32_t i, uint32_t n, block *o, uint32_t at)
+{
+    const sph_buffer *b = &sim->buf[sim->src];
+    const uint32_t held = sph_held(sim, s);
+    const bool moves = sim->src == sim->cur; /* as in move_wall */
+    bool fine = true;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t j = 0; j < n && held >> k & 1; j++) {
+            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + (moves ? wall_step(sim, s, k) : 0));
+            o->vel[k][at + j] = (sph_real)sph_wall_velocity(sim, s, k);
+            fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->grid.extent[k]);
+        }
+    return fine;
+}
+#endif
+
 static sph_status face_failure(sph_status s, uint32_t id, sph_thread *t, double value)
 {
     sph_fail_note(t, s, id, value);
@@ -151,12 +172,12 @@ static void mend_block(const sph_sim *sim, const advance *a, uint32_t i, uint32_
             const sph_real way = u < 0 ? -u : u;
             far = !(way <= far) ? way : far;
         }
-        if (own && !(far < 1) && sim->set[b->set[0][i + j]].role == SPH_ROLE_FLUID)
+        if (own && !(far < 1) && sph_is_body(&sim->set[b->set[0][i + j]]))
             face_failure(far - far == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE, b->id[0][i + j], t, (double)far);
         int r = sph_enforce_faces(sim, q, v);
         if (r == 2) {
             o->gone[j] = 2;
-            if (own && (sim->cfg.on_leave == SPH_FAIL || sim->set[b->set[0][i + j]].role != SPH_ROLE_FLUID))
+            if (own && (sim->cfg.on_leave == SPH_FAIL || !sph_is_body(&sim->set[b->set[0][i + j]])))
                 face_failure(SPH_OUT_OF_DOMAIN, b->id[0][i + j], t, (double)q[0] * sim->grid.quantum);
             if (own && !all)
                 t->left++;
@@ -184,8 +205,13 @@ static bool advance_block(const sph_sim *sim, const advance *a, uint32_t i, uint
         memset(o->gone + j, set == SPH_DEAD, e - j);
         if (set == SPH_DEAD)
             fine = false;
-        else if (sim->set[set].role == SPH_ROLE_FLUID)
+        else if (sph_is_body(&sim->set[set])) {
             fine &= move_fluid(sim, a, i + j, e - j, o, j, all);
+#if SPH_HAS_HELD
+            if (sim->set[set].held)
+                fine &= hold(sim, &sim->set[set], i + j, e - j, o, j);
+#endif
+        }
         else if (SPH_HAS_WALLS)
             fine &= move_wall(sim, a, &sim->set[set], i + j, e - j, o, j);
         j = e;

@@ -2,7 +2,7 @@
 /* sph.h: smoothed particle hydrodynamics inside memory that you hand over, with the same bits everywhere.
 
    The whole manual is this file, in the order in which a host meets things:
-     1 build knobs   2 status   3 configuration   4 arena and life   5 fluid   6 walls   7 step
+     1 build knobs   2 status   3 configuration   4 arena and life   5 fluid and solid   6 walls   7 step
      8 reading the state   9 books, probes, gauges   10 hash   11 dump and restore
 
    A host fills a configuration, asks how many bytes it needs, hands over an arena, adds particles and
@@ -34,7 +34,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 1u
+#define SPH_VERSION 2u /* 1: without solids */
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
@@ -57,11 +57,13 @@ typedef float sph_real;
     X(ARITHMETIC, "this build or machine does not do the IEEE 754 arithmetic the kernel relies on")    \
     X(TOO_MANY_PARTICLES, "the particle capacity is exhausted")                                        \
     X(TOO_MANY_SETS, "the capacity for particle sets or wall groups is exhausted")                     \
+    X(TOO_MANY_FLAWS, "the capacity for flaws is exhausted")                                           \
     X(NOT_FINITE, "a particle's rate or state is not finite")                                          \
     X(DENSITY_LOST, "a particle's density left the range that its equation of state allows")           \
     X(OUT_OF_DOMAIN, "a particle left the domain through an open face")                                \
     X(MOVED_TOO_FAR, "a particle moved more than a cell in one step")                                  \
     X(WALL_CROSSED, "a particle crossed a wall")                                                       \
+    X(BOND_TOO_LONG, "two neighbours of the total-Lagrangian form were drawn further apart than max_stretch") \
     X(STEP_COLLAPSED, "the time step fell below dt_min")                                               \
     X(SINK_FAILED, "the byte sink or source reported a failure")                                       \
     X(DUMP_TRUNCATED, "the dump ends too early")                                                       \
@@ -118,6 +120,34 @@ enum { SPH_CONTINUITY, SPH_SUMMATION, SPH_DENSITIES };
    rho0. TAIT_GRAY: p = rho0 c0^2 (s^7 - 1) as Gray 2001 prints it: its true sound speed is sqrt(7) c0.
    LINEAR: p = c0^2 (rho - rho0). ISOTHERMAL: p = c0^2 rho. */
 enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
+
+/* Forms of a solid's equations; NO_SOLID: the scene has fluids only. With T = -sigma/rho^2, K_ij the vector between two
+   particles, g = (dW/dr)/r at |K|, and v_ij = v_i - v_j:
+   UPDATED    dv = sum m_j (-T_i - T_j) . K g,  velocity gradient L = -(1/rho_i) sum m_j v_ij (x) K g, K = x_ij
+              (Gray 2001 eqs 5.9, 5.21). Weak scheme: -sigma/(rho_i rho_j) and m_j/rho_j. Gray prints (5.6, 5.10) the weak rates
+              beside the standard momentum; the pairs here conserve energy.
+   CORRECTED  L = (-sum m_j v_ij (x) K g) M^-1, M = -sum m_j x_ij (x) K g: exact for linear fields, and the force that does
+              the same work, T = -sigma M^-T/rho (Bonet & Lok 1999), so momentum and angular momentum stay. Costs a sweep.
+              Where M is nearly singular (lone particles, lines of them) the plain form is taken.
+   TOTAL      the same with K the vector in the reference position, for pairs of one body of which neither is fully damaged;
+              fixed neighbours, no tensile instability. Other pairs (contact) take K = x_ij. A particle may go half a domain's
+              length from where it began (else MOVED_TOO_FAR). */
+enum { SPH_NO_SOLID, SPH_UPDATED, SPH_CORRECTED, SPH_TOTAL, SPH_SOLIDS };
+
+/* Yield. VON_MISES: where sqrt(3 J2) exceeds Y = yield + hardening * plastic strain, S is returned along the radius. With
+   hardening the plastic strain of a return is (sqrt(3 J2) - Y)/(3 mu + hardening). VON_MISES_GRAY: S times
+   Y^2/(3 J2), with J2 without its zz part, as Gray 2001 eqs 5.14 and 5.15 print it; it lands inside the yield surface. */
+enum { SPH_NO_YIELD, SPH_VON_MISES, SPH_VON_MISES_GRAY, SPH_YIELDS };
+
+/* Damage (2-D, 3-D). BENZ_ASPHAUG: d(D^(1/DIM))/dt = active crack_speed/flaw_radius, D at most (active/flaws), where a flaw is
+   active while the strain exceeds its threshold; the strain is the largest principal stress over (1 - D) E (Benz & Asphaug
+   1995; Gray 2001 eqs 5.33-5.42). BENZ_ASPHAUG_GRAY: over 2 mu (1 - D^2), as his eq 5.35 prints it. */
+enum { SPH_NO_DAMAGE, SPH_BENZ_ASPHAUG, SPH_BENZ_ASPHAUG_GRAY, SPH_DAMAGES };
+
+/* Artificial stress against clumping in tension: T_i + T_j gains (R_i + R_j) (W/W(dx))^n, R = epsilon sigma/rho^2 on tension:
+   PRINCIPAL on each principal stress (Gray 2001 eqs 5.22-5.28), COMPONENTS on each component of the stress (Monaghan
+   2000). The sign is that of 5.26, which repels. */
+enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_STRESSES };
 
 /* Viscosities. ARTIFICIAL: Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu, mu = v.r/(r^2 + 0.01 h^2), on
    approaching and receding pairs (Gray 2.18). ARTIFICIAL_APPROACHING: on approaching pairs only
@@ -213,6 +243,17 @@ typedef struct sph_config {
     double xsph;          /* XSPH factor (-), 0: off, 0.5 is usual (Gray 2.22) */
     uint32_t shepard_every; /* Shepard density filter every so many steps, 0: never (Wickramarachchi 6.3) */
     double gravity[SPH_DIM]; /* m/s^2 */
+
+    /* solids; fluids may be beside them, and take part in the same sums */
+    uint32_t solid;             /* SPH_NO_SOLID ... */
+    uint32_t yield, damage;     /* SPH_NO_YIELD ..., SPH_NO_DAMAGE ... */
+    uint32_t max_flaws;         /* capacity for flaws, all sets together, with damage: 1 .. 2^30 */
+    uint32_t artificial_stress; /* not with SPH_TOTAL, which needs none */
+    uint32_t stress_exponent;   /* n, 1 .. 8; 4 is usual */
+    double stress_epsilon;      /* epsilon, 0 .. 10; 0.3 is usual */
+    bool xsph_strain;           /* strain rates from the smoothed velocity (Gray 2001 eq 5.10; needs xsph; costs a sweep) */
+    double max_stretch;         /* SPH_TOTAL: how far a bond may be drawn, 1 .. 8 times the support; cells grow with it */
+
     sph_body_force body_force;
     void *body_ctx;
     double damping; /* velocities are multiplied by it in predictor and corrector; 1: none (Gray 2.29) */
@@ -260,14 +301,29 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_XSPH 2u
 #define SPH_USE_BOOKS 4u
 #define SPH_USE_FILTER 8u /* Shepard filter or density by summation */
+#define SPH_USE_SOLID 16u   /* any solid form */
+#define SPH_USE_CORRECTED 32u /* SPH_CORRECTED or SPH_TOTAL */
+#define SPH_USE_TOTAL 64u   /* SPH_TOTAL */
+#define SPH_USE_YIELD 128u
+#define SPH_USE_DAMAGE 256u /* flaws: 4 bytes each, to be added */
+#define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
+#define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components of the deviatoric stress that are kept */
+#define SPH_SOLID_BYTES_(use)                                                                               \
+    ((((use)&SPH_USE_SOLID) ? 2u * SPH_STRESSES * SPH_REAL_ : 0u) + (((use)&SPH_USE_TOTAL) ? SPH_DIM * SPH_REAL_ : 0u) + \
+     (((use)&SPH_USE_YIELD) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? SPH_REAL_ : 0u))
 #define SPH_STATE_BYTES_ ((2u * SPH_DIM + SPH_DIM + 2u) * (SPH_DOUBLE ? 8u : 4u) + 4u + 1u)
 #define SPH_PARTICLE_BYTES(use)                                                                             \
     (SPH_STATE_BYTES_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                           \
      (((use)&SPH_USE_XSPH) ? SPH_DIM * (SPH_DOUBLE ? 8u : 4u) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +  \
      (((use)&SPH_USE_BOOKS) ? 4u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
-     (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u))
-#define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
-#define SPH_SCRATCH_BYTES ((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) * (SPH_DOUBLE ? 2u : 1u)) /* a thread */
+     (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
+     SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
+     (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u))
+#define SPH_FIXED_BYTES (SPH_WITH_SOLID ? 36864u : 28672u) /* simulation header, sets, groups, alignment of at most 96 arrays */
+#define SPH_SCRATCH_BYTES /* a thread */                                                                    \
+    (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) +                                            \
+      (SPH_WITH_SOLID ? SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u : 0u)) *                      \
+     (SPH_DOUBLE ? 2u : 1u))
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
@@ -306,15 +362,74 @@ const sph_report *sph_last(const sph_sim *sim);
 #define sph_reconfigure SPH_NAME(reconfigure)
 sph_status sph_reconfigure(sph_sim *sim, const sph_config *cfg);
 
-/* ---- 5 fluid ---------------------------------------------------------------------------------------
+/* ---- 5 fluid and solid ---------------------------------------------------------------------------------------
    A set is a body of particles of one material; its particles have mass rho0 dx^DIM unless given. */
 typedef struct sph_fluid {
     double mass;        /* of one particle, kg (per m of depth in 2-D, per m^2 in 1-D); 0: rho0 spacing^DIM */
     double rho0;        /* 0: that of the configuration */
     double sound_speed; /* 0: that of the configuration */
+    bool own_eos;       /* take the next field instead of the configuration's eos: a gas beside rock */
+    uint32_t eos;
 } sph_fluid;
 #define sph_add_fluid SPH_NAME(add_fluid)
 sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *fluid, uint32_t *set); /* fluid null: all defaults */
+
+/* Displacement (m) and velocity (m/s) at time t (s) of something that moves as it is told: a wall, a held set. Must depend on
+   its arguments only. Finite, within two domain lengths, and less than one from step to step; otherwise the step fails
+   (NOT_FINITE, MOVED_TOO_FAR). */
+typedef void (*sph_motion)(void *ctx, double t, double *displacement, double *velocity);
+
+/* A motion given as a table, linear between rows; before the first and after the last row there is rest. Pass
+   sph_motion_table as the motion and a pointer to this as its ctx. Times must increase. Without rows, or with an axis that
+   there is not, there is rest. */
+typedef struct sph_table {
+    uint32_t rows, axis;
+    const double *t, *x; /* s, m */
+} sph_table;
+#define sph_motion_table SPH_NAME(motion_table)
+void sph_motion_table(void *ctx, double t, double *displacement, double *velocity);
+
+/* A motion from rest at time 0: displacement v t + a t^2/2 on each axis. Pass sph_motion_steady and a pointer to this. */
+typedef struct sph_steady {
+    double v[SPH_DIM], a[SPH_DIM]; /* m/s, m/s^2 */
+} sph_steady;
+#define sph_motion_steady SPH_NAME(motion_steady)
+void sph_motion_steady(void *ctx, double t, double *displacement, double *velocity);
+
+/* A solid's material. p = c0^2 (rho - rho0) (Gray 2001 eq 5.11), so the bulk modulus is rho0 c0^2; the deviatoric stress follows
+   dS/dt = 2 mu (e - tr e/3) + W S - S W with the strain rate e and spin W of L (Jaumann; Gray 5.7-5.9 in plane strain, where
+   S_zz = -S_xx - S_yy). In 1-D the strain is uniaxial; for a thin bar give sound_speed = sqrt(E/rho0) and shear 0. */
+typedef struct sph_solid {
+    double mass, rho0, sound_speed; /* as in sph_fluid */
+    double shear;                   /* mu (Pa), >= 0 */
+    double yield, hardening;        /* Y (Pa) in simple tension, 0: never yields; rise of Y with plastic strain (Pa) */
+    double crack_speed;             /* m/s, 0: 0.4 sound_speed */
+    double flaw_radius;             /* m, 0: that of the disc (ball) of a particle's volume */
+    uint32_t body;                  /* SPH_TOTAL: sets of the same number are one body; 0 .. 255 */
+    uint32_t held;                  /* bits 1 << axis: along these the set moves as `motion` says instead of by forces */
+    sph_motion motion;              /* null: at rest */
+    void *motion_ctx;
+} sph_solid;
+#define sph_add_solid SPH_NAME(add_solid)
+sph_status sph_add_solid(sph_sim *sim, const sph_solid *solid, uint32_t *set, uint32_t *group); /* group: null, or for
+   sph_remove_wall, which lets go of a held set */
+
+/* Gives the particles of a solid set flaws: each of round(N ln N) draws, and more until every particle has one, puts a flaw
+   of threshold (p/(k V))^(1/m), p evenly out of 1 .. N ln N, on an evenly chosen particle, N being the set's particles and V their
+   volume (Gray 2001 eqs 5.40, 5.41); a particle with 20 flaws takes no more. Draws come from splitmix64 (Steele, Lea & Flood
+   2014) started at seed: first p, then the particle; the same on every machine. Call it once for a set, after its particles
+   were added and before the first step. A set without flaws is never damaged. */
+#define SPH_MAX_FLAWS 20u /* of one particle */
+typedef struct sph_flaws {
+    double k; /* 1/m^DIM */
+    double m; /* 1 .. 50 */
+    uint64_t seed;
+} sph_flaws;
+#define sph_add_flaws SPH_NAME(add_flaws)
+sph_status sph_add_flaws(sph_sim *sim, uint32_t set, const sph_flaws *flaws);
+/* The flaws of a particle: how many, and their thresholds in rising order into threshold[0 .. 19] (may be null). */
+#define sph_get_flaws SPH_NAME(get_flaws)
+sph_status sph_get_flaws(const sph_sim *sim, uint32_t id, uint32_t *count, float *threshold);
 
 /* One particle: position x (m), velocity v (m/s, null: 0), density rho (kg/m^3, 0: rho0). Ids count from 0 in the
    order of adding. id may be null. */
@@ -357,20 +472,6 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface);
    ADAMI             the same layers with pressure extrapolated from the fluid, and for no slip the velocity too
                      (Adami, Hu & Adams 2012) */
 enum { SPH_WALL_LENNARD_JONES, SPH_WALL_KERNEL_FORCE, SPH_WALL_MONAGHAN_KOS, SPH_WALL_GHOST, SPH_WALL_ADAMI, SPH_WALLS };
-
-/* Displacement (m) and velocity (m/s) of a moving wall at time t (s); must depend on its arguments only. Finite, within two
-   domain lengths, and less than one from step to step; otherwise the step fails (NOT_FINITE, MOVED_TOO_FAR). */
-typedef void (*sph_motion)(void *ctx, double t, double *displacement, double *velocity);
-
-/* A motion given as a table, linear between rows; before the first and after the last row the wall rests. Pass
-   sph_motion_table as the motion and a pointer to this as its ctx. Times must increase. Without rows, or with an axis that
-   there is not, the wall rests. */
-typedef struct sph_table {
-    uint32_t rows, axis;
-    const double *t, *x; /* s, m */
-} sph_table;
-#define sph_motion_table SPH_NAME(motion_table)
-void sph_motion_table(void *ctx, double t, double *displacement, double *velocity);
 
 typedef struct sph_wall {
     uint32_t kind;       /* SPH_WALL_... */
@@ -471,11 +572,13 @@ const char *sph_limit_text(uint32_t limit);
 double sph_time(const sph_sim *sim);
 
 /* ---- 8 reading the state ---------------------------------------------------------------------------*/
-enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL };
+enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL, SPH_ROLE_SOLID };
 typedef struct sph_particle {
     uint32_t id, set, role;
     double x[SPH_DIM], v[SPH_DIM], a[SPH_DIM]; /* m, m/s, m/s^2 (0 before the first forces) */
     double rho, p, mass;                      /* kg/m^3, Pa, kg */
+    double stress[6];                         /* Pa: xx, yy, zz, xy, xz, yz, tension positive, after damage; a fluid's is -p I */
+    double plastic, damage;                   /* equivalent plastic strain; D, 0 .. 1 */
 } sph_particle;
 #define sph_count SPH_NAME(count)
 uint32_t sph_count(const sph_sim *sim); /* particles in the simulation, walls included */
@@ -485,21 +588,23 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges -----------------------------------------------------------------------*/
 typedef struct sph_totals {
-    uint32_t fluid, wall;        /* particles */
-    double mass;                 /* kg, fluid */
+    uint32_t fluid, wall, solid; /* particles */
+    double mass;                 /* kg, fluid and solid, as all that follows */
     double momentum[SPH_DIM];    /* kg m/s */
     double angular[3];           /* kg m^2/s about the origin; in 2-D only [2], in 1-D none */
     double kinetic;              /* J */
     double potential;            /* J, in gravity, from height 0 */
     double internal;             /* J, compression from rho0 */
-    double wall_work;            /* J, done on the fluid by moving walls since init (books) */
+    double elastic;              /* J, S:S/(4 mu): distortion of solids */
+    double plastic_work;         /* J, by yielding since init */
+    double wall_work;            /* J, done by moving walls and held sets since init (books) */
     double body_work;            /* J, done by the body force beside gravity (books) */
     double dissipated;           /* J, by viscosity (books) */
     double diffused;             /* J, taken from the internal energy by density diffusion (books) */
     double removed_mass;         /* kg that left the domain or was removed */
     double max_speed, min_density, max_density;
 } sph_totals;
-/* Sums over the fluid in double precision, in index order. */
+/* Sums over fluid and solid in double precision, in index order. */
 #define sph_get_totals SPH_NAME(get_totals)
 void sph_get_totals(const sph_sim *sim, sph_totals *out);
 
@@ -546,7 +651,9 @@ typedef bool (*sph_source)(void *ctx, void *bytes, size_t n); /* must fill n byt
 #define SPH_DUMP_DENSITY 2u
 #define SPH_DUMP_PRESSURE 4u
 #define SPH_DUMP_ACCELERATION 8u
-#define SPH_DUMP_PICTURE 7u /* position, set, id always */
+#define SPH_DUMP_STRESS 16u /* deviatoric; this and the next where the scene has them */
+#define SPH_DUMP_DAMAGE 32u /* plastic strain, D^(1/DIM) */
+#define SPH_DUMP_PICTURE 55u /* position, set, id always */
 #define SPH_DUMP_FULL 0x80000000u
 #define sph_dump SPH_NAME(dump)
 sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ctx);

@@ -75,7 +75,7 @@ static void settle(const sph_sim *sim, span s)
         id[i] = of[id[i]];
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(b->set[0], i, s.last);
-        if (b->set[0][i] == SPH_DEAD || sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
+        if (b->set[0][i] == SPH_DEAD || sph_is_body(&sim->set[b->set[0][i]]))
             continue;
         const size_t bytes = (e - i) * sizeof(sph_real);
         for (uint32_t k = 0; k < SPH_DIM; k++) {
@@ -125,6 +125,12 @@ static void check_span(sph_sim *sim, span s, sph_thread *t)
         else if (!(d > (sph_real)-0.9 && d < 99))
             sph_fail_note(t, SPH_DENSITY_LOST, b->id[0][i], (double)d);
     }
+#if SPH_WITH_SOLID
+    for (uint32_t k = 0; k < SPH_NS && b->stress[0]; k++)
+        for (uint32_t i = s.first; i < s.last; i++)
+            if (!(b->stress[k][i] - b->stress[k][i] == 0))
+                sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)b->stress[k][i]);
+#endif
 }
 
 #if SPH_WITH_BOOKS
@@ -177,6 +183,10 @@ static sph_status prime_books(sph_sim *sim)
 static void finish_span(sph_sim *sim, uint32_t chunk, span s, sph_thread *t)
 {
     settle(sim, s);
+#if SPH_HAS_DAMAGE
+    if (sph_damages(&sim->cfg))
+        sph_grow_damage(sim, s.first, s.last);
+#endif
 #if SPH_HAS_WALLS
     sph_cross_walls(sim, s.first, s.last, t);
 #endif
@@ -198,15 +208,20 @@ SPH_INLINE void correct(sph_sim *sim, uint32_t chunk, sph_thread *t, bool kdk)
     const span s = chunk_span(sim, chunk);
     const sph_buffer b = sim->buf[sim->dst], o = sim->buf[sim->src];
     const sph_real half = (sph_real)sim->dt * (sph_real)0.5, g = (sph_real)sim->cfg.damping;
+#if SPH_WITH_SOLID
+    if (!kdk && sph_has_solids(&sim->cfg))
+        sph_advance_stress(sim, s.first, s.last, SPH_STRESS_CORRECT);
+#endif
     for (uint32_t i = s.first; i < s.last;) {
         const uint32_t e = sph_run_end(b.set[0], i, s.last);
         const sph_set *set = &sim->set[b.set[0][i]];
-        const bool fluid = set->role == SPH_ROLE_FLUID;
+        const bool fluid = sph_is_body(set);
+        const uint32_t held = sph_held(sim, set);
         for (uint32_t j = i; j < e && !kdk && (fluid || set->compressible); j++)
             b.rho[0][j] = b.rho[0][j] + half * (b.drho[0][j] - o.drho[0][b.id[0][j]]);
         SPH_UNROLL
         for (uint32_t k = 0; k < SPH_DIM; k++)
-            for (uint32_t j = i; j < e && fluid; j++) {
+            for (uint32_t j = i; j < e && fluid && !(held >> k & 1); j++) {
                 const sph_real a = kdk ? b.acc[k][j] : b.acc[k][j] - o.acc[k][b.id[0][j]];
                 b.vel[k][j] = g * (b.vel[k][j] + half * a);
             }
@@ -234,9 +249,13 @@ static void leap_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_buffer *b = &sim->buf[sim->dst];
     for (uint32_t i = s.first; i < s.last; i++) {
         const sph_set *set = &sim->set[b->set[0][i]];
-        if (set->role == SPH_ROLE_FLUID || set->compressible)
+        if (sph_is_body(set) || set->compressible)
             b->rho[0][i] += (sph_real)sim->dt * b->drho[0][i];
     }
+#if SPH_WITH_SOLID
+    if (sph_has_solids(&sim->cfg))
+        sph_advance_stress(sim, s.first, s.last, SPH_STRESS_WHOLE);
+#endif
     t->work += s.last - s.first;
 }
 static const sph_pass pass_leap_density = {"density", sph_local_chunks, leap_density_chunk, NULL, NULL};
@@ -248,10 +267,13 @@ static void leap_velocity_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const span s = chunk_span(sim, chunk);
     const sph_buffer *b = &sim->buf[sim->dst];
     const sph_real dt = (sph_real)sim->dt, g = (sph_real)sim->cfg.damping;
-    for (uint32_t i = s.first; i < s.last; i++)
-        if (sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
-            for (uint32_t k = 0; k < SPH_DIM; k++)
+    for (uint32_t i = s.first; i < s.last; i++) {
+        const sph_set *set = &sim->set[b->set[0][i]];
+        const uint32_t held = sph_held(sim, set);
+        for (uint32_t k = 0; k < SPH_DIM && sph_is_body(set); k++)
+            if (!(held >> k & 1))
                 b->vel[k][i] = g * (b->vel[k][i] + dt * b->acc[k][i]);
+    }
     finish_span(sim, chunk, s, t);
 }
 
@@ -299,16 +321,22 @@ static void rk_particle(sph_sim *sim, uint32_t i, sph_thread *t)
     const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5;
     const uint32_t p = b->id[0][i];
     const sph_set *set = &sim->set[b->set[0][i]];
-    if (set->role == SPH_ROLE_FLUID || set->compressible) {
+    if (sph_is_body(set) || set->compressible) {
         const sph_real r = o->rho[0][p], d = b->drho[0][i];
         const sph_real mid = r + half * d;
         b->rho[0][i] = momentum ? r + dt * d : 2 * mid - r;
     }
-    if (set->role != SPH_ROLE_FLUID)
+    if (!sph_is_body(set))
         return;
     double move[SPH_DIM];
     sph_pos from[SPH_DIM];
+    const uint32_t held = sph_held(sim, set);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
+        if (held >> k & 1) { /* where the sort put it */
+            move[k] = 0;
+            from[k] = b->pos[k][i];
+            continue;
+        }
         const sph_real v = o->vel[k][p], half_v = v + half * o->acc[k][p];
         /* a mirror face that turned the velocity at half time turned the frame of the forces there: turn it back */
         const sph_real turn = b->vel[k][i] == half_v ? 1 : -1;
@@ -326,6 +354,10 @@ static void rk_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const span s = chunk_span(sim, chunk);
     for (uint32_t i = s.first; i < s.last; i++)
         rk_particle(sim, i, t);
+#if SPH_WITH_SOLID
+    if (sph_has_solids(&sim->cfg))
+        sph_advance_stress(sim, s.first, s.last, SPH_STRESS_RK);
+#endif
     finish_span(sim, chunk, s, t);
 }
 
@@ -365,8 +397,23 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 #else
 #define ADAMI
 #endif
-#define SORT &sph_pass_count, &sph_pass_scatter,
-#define FORCES ADAMI &sph_pass_force,
+#if SPH_WITH_SOLID
+#define CARRY &sph_pass_carry,
+#else
+#define CARRY
+#endif
+#if SPH_HAS_CORRECTION
+#define CORRECTION &sph_pass_correction,
+#else
+#define CORRECTION
+#endif
+#if SPH_HAS_HAT
+#define SMOOTH &sph_pass_smooth,
+#else
+#define SMOOTH
+#endif
+#define SORT &sph_pass_count, &sph_pass_scatter, CARRY
+#define FORCES ADAMI CORRECTION SMOOTH &sph_pass_force,
 
 typedef const sph_pass *const program[];
 static program prime_program = {&pass_begin_copy, SORT FILTER FORCES &pass_prime, NULL};
@@ -410,8 +457,13 @@ static const sph_pass *const *program_of(uint32_t integrator)
 static double fastest_sound(const sph_sim *sim)
 {
     double c = sim->cfg.sound_speed;
-    for (uint32_t s = 0; s < sim->sets; s++)
-        c = sim->set[s].c0 > c ? sim->set[s].c0 : c;
+    for (uint32_t s = 0; s < sim->sets; s++) {
+        const sph_set *set = &sim->set[s];
+        double own = set->c0;
+        if (sph_is_solid(set)) /* waves along the way of their motion (Gray 2001 eq 5.52) */
+            own = __builtin_sqrt(own * own + 4 * set->shear / (3 * set->rho0));
+        c = own > c ? own : c;
+    }
     return SPH_IS(sim->cfg.eos, TAIT_GRAY) ? c * 2.6457513110645905905 : c; /* sqrt 7 */
 }
 
@@ -493,7 +545,7 @@ static sph_status load_program(sph_sim *sim, const sph_pass *const *p)
 
 static sph_status move_groups(sph_sim *sim, double t)
 {
-#if SPH_WITH_MOVING_WALLS
+#if SPH_HAS_GROUPS
     return sph_move_groups(sim, t);
 #else
     (void)sim, (void)t;
@@ -583,6 +635,7 @@ static const char *fail_quantity(sph_status s)
     case SPH_OUT_OF_DOMAIN: return "x from the domain's low corner (m)";
     case SPH_MOVED_TOO_FAR: return "cells moved in one step";
     case SPH_WALL_CROSSED: return "depth inside the wall (m)";
+    case SPH_BOND_TOO_LONG: return "length of a bond (m)";
     default: return "";
     }
 }
@@ -612,7 +665,7 @@ static double fluid_mass(const sph_sim *sim, const sph_buffer *b, uint32_t n)
     double mass = 0;
     for (uint32_t s = 0; s < sim->sets; s++) {
         uint32_t count = 0;
-        if (sim->set[s].role != SPH_ROLE_FLUID)
+        if (!sph_is_body(&sim->set[s]))
             continue;
         for (uint32_t i = 0; i < n; i++)
             count += b->set[0][i] == s;

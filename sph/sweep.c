@@ -4,7 +4,7 @@
    The candidates of a cell come in this order: rows of cells from low to high, in a row first an image at the low end,
    then the cells themselves from low to high, then an image at the high end, inside a cell by id. The particles of up to
    three neighbouring cells of a row are contiguous in memory, so a row is one copy. */
-#include "sweep.h"
+#include "solid.h"
 
 /* how a run of particles is carried into the tile: x' = sign x + shift, v' = flip v */
 typedef struct image {
@@ -83,7 +83,7 @@ static __attribute__((noinline)) void load_any(const filling *f, const image *im
                                                sph_tile *t)
 {
     const sph_config *c = &f->sim->cfg;
-    const columns cols = {c->eos, !sph_weak_scheme(c->scheme), c->pressure_floor, f->w->needs_iv};
+    const columns cols = {set->eos, !sph_weak_scheme(c->scheme), c->pressure_floor && !sph_is_solid(set), f->w->needs_iv};
     load_columns(f, im, set, s, n, t, cols, SPH_HAS_IMAGES && im->is_image, SPH_HAS_LAYERED_WALLS && set->role == SPH_ROLE_GHOST);
 }
 
@@ -91,13 +91,165 @@ static void load(const filling *f, const image *im, const sph_set *set, uint32_t
 {
 #if SPH_WITH_FAST_PATHS
     static const columns usual = {SPH_TAIT, true, false, false};
-    if (f->usual && !im->is_image && set->role == SPH_ROLE_FLUID) {
+    if (f->usual && !im->is_image && set->role == SPH_ROLE_FLUID && SPH_IS(set->eos, TAIT)) {
         load_columns(f, im, set, s, n, t, usual, false, false);
         return;
     }
 #endif
     load_any(f, im, set, s, n, t);
 }
+
+#if SPH_WITH_SOLID
+/* Artificial stress of a symmetric stress tensor, positive in tension: r = eps w (its tensile part), w being 1/rho^2 or 1. By
+   components: each component where it is positive (Monaghan 2000). On principal axes: sum over the principal stresses above 0
+   of eps w sigma n (x) n. In 2-D with m = (xx + yy)/2, a = (xx - yy)/2 and d = sqrt(a^2 + xy^2) they are m +- d, and
+   n (x) n = (1 +- [a xy; xy -a]/d)/2; where d vanishes the axes are not defined, but the difference of the two tensile parts
+   is at most 2 d, so a floor under the divisor is all it takes (Gray 2001 section 5.4 adds a stress difference instead). */
+#if SPH_DIM == 3
+/* cyclic Jacobi, four sweeps: one rotation in the plane p, q of tensor a and axes e (columns) */
+SPH_INLINE void rotate(vreal (*a)[3], vreal (*e)[3], int p, int q)
+{
+    const vreal none = v_set(0), one = v_set(1);
+    const vint still = ~v_less(none, v_abs(a[p][q]));
+    const vreal theta = (a[q][q] - a[p][p]) / (2 * v_select(still, one, a[p][q]));
+    const vreal big = v_set(SPH_DOUBLE ? (sph_real)1e100 : (sph_real)1e15), size = v_select(v_less(v_abs(theta), big), v_abs(theta), big);
+    const vreal root = 1 / (size + v_sqrt(size * size + 1));
+    const vreal t = v_select(still, none, v_select(v_less(theta, none), -root, root));
+    const vreal c = 1 / v_sqrt(t * t + 1), s = t * c;
+    const int r = 3 - p - q;
+    const vreal apq = a[p][q], arp = a[r][p], arq = a[r][q];
+    a[p][p] = a[p][p] - t * apq;
+    a[q][q] = a[q][q] + t * apq;
+    a[p][q] = a[q][p] = v_select(still, apq, none);
+    a[r][p] = a[p][r] = c * arp - s * arq;
+    a[r][q] = a[q][r] = s * arp + c * arq;
+    for (int k = 0; k < 3; k++) {
+        const vreal x = e[k][p], y = e[k][q];
+        e[k][p] = c * x - s * y;
+        e[k][q] = s * x + c * y;
+    }
+}
+#endif
+
+SPH_INLINE void tensile_part(const vreal *sigma, bool principal, vreal small, vreal *r)
+{
+    (void)small;
+    if (!principal || SPH_DIM == 1) {
+        for (int k = 0; k < SPH_NT; k++)
+            r[k] = v_pos(sigma[k]);
+        return;
+    }
+#if SPH_DIM == 2
+    const vreal half = v_set((sph_real)0.5);
+    const vreal m = (sigma[0] + sigma[1]) * half, a = (sigma[0] - sigma[1]) * half;
+    const vreal d = v_sqrt(a * a + sigma[2] * sigma[2]), one = v_pos(m + d), two = v_pos(m - d);
+    const vreal mean = (one + two) * half, diff = (one - two) * half / v_max(d, small);
+    r[0] = mean + diff * a;
+    r[1] = mean - diff * a;
+    r[2] = diff * sigma[2];
+#elif SPH_DIM == 3
+    vreal a[3][3], e[3][3], pos[3];
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++) {
+            a[k][l] = sigma[sph_sym[k][l]];
+            e[k][l] = v_set(k == l ? 1 : 0);
+        }
+    for (int turn = 0; turn < 4; turn++) {
+        rotate(a, e, 0, 1);
+        rotate(a, e, 0, 2);
+        rotate(a, e, 1, 2);
+    }
+    for (int k = 0; k < 3; k++)
+        pos[k] = v_pos(a[k][k]);
+    for (int k = 0; k < 3; k++)
+        for (int l = k; l < 3; l++)
+            r[sph_sym[k][l]] = pos[0] * e[k][0] * e[l][0] + pos[1] * e[k][1] * e[l][1] + pos[2] * e[k][2] * e[l][2];
+#endif
+}
+
+/* T, and R where the scene has it, of W particles from index i on */
+SPH_INLINE void load_stress(const filling *f, const image *im, const sph_set *set, uint32_t i, sph_real *to, uint32_t row)
+{
+    const sph_config *c = &f->sim->cfg;
+    const bool solid = set->role == SPH_ROLE_SOLID, weak = sph_weak_scheme(c->scheme);
+    const vreal e = v_load(f->b->rho[0] + i), rho = (1 + e) * set->rho0_r;
+    vreal p = pressure(set->eos, c->pressure_floor && !solid, v_set(set->b_r), e), kept[SPH_NS], s[SPH_NT], t[SPH_NL];
+    SPH_UNROLL
+    for (int k = 0; k < SPH_NS; k++)
+        kept[k] = v_load(f->b->stress[k] + i);
+    if (SPH_HAS_DAMAGE && f->b->damage[0]) { /* Gray 2001 eqs 5.33, 5.34 */
+        const vreal root = v_load(f->b->damage[0] + i), whole = 1 - (SPH_DIM == 3 ? root * root * root : root * root);
+        p = v_select(v_less(p, v_set(0)), whole * p, p);
+        SPH_UNROLL
+        for (int k = 0; k < SPH_NS; k++)
+            kept[k] = kept[k] * whole;
+    }
+    sph_deviator(kept, s);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        s[k] = s[k] - p;
+    const vreal w = weak ? v_set(1) : 1 / (rho * rho);
+    if (sph_repels(c)) {
+        vreal r[SPH_NT];
+        tensile_part(s, c->artificial_stress == SPH_PRINCIPAL, v_set(set->b_r * (sph_real)1e-9), r);
+        const vreal scale = w * (solid ? f->sim->fac.repulsion : 0);
+        for (int k = 0; k < SPH_DIM; k++)
+            for (int l = k; l < SPH_DIM; l++) {
+                const int n = sph_sym[k][l];
+                const vreal v = r[n] * scale;
+                v_store(to + (SPH_NL + (uint32_t)n) * row, im->is_image && k != l ? v * (sph_real)(im->sign[k] * im->sign[l]) : v);
+            }
+    }
+    if (sph_corrects(c) && solid) { /* -sigma M^-T over rho (standard) or 1 (weak) */
+        const vreal scale = weak ? v_set(-1) : -1 / rho;
+        for (int k = 0; k < SPH_DIM; k++)
+            for (int l = 0; l < SPH_DIM; l++) {
+                vreal sum = v_set(0);
+                for (int m = 0; m < SPH_DIM; m++)
+                    sum = sum + s[sph_sym[k][m]] * v_load(f->sim->corr[l * SPH_DIM + m] + i);
+                t[k * SPH_DIM + l] = sum * scale;
+            }
+    } else {
+        SPH_UNROLL
+        for (int k = 0; k < SPH_DIM; k++)
+            SPH_UNROLL
+            for (int l = 0; l < SPH_DIM; l++)
+                t[k * SPH_DIM + l] = -(s[sph_sym[k][l]] * w);
+    }
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        SPH_UNROLL
+        for (int l = 0; l < SPH_DIM; l++) {
+            const vreal v = t[k * SPH_DIM + l];
+            v_store(to + (uint32_t)(k * SPH_DIM + l) * row, im->is_image && k != l ? v * (sph_real)(im->sign[k] * im->sign[l]) : v);
+        }
+}
+
+/* The solid columns of n particles of one set from index s on, to `to`: rows of `row` elements, from element 0. */
+static __attribute__((noinline)) void load_solid(const filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t n,
+                                                 sph_real *to, uint32_t row)
+{
+    const uint32_t asked = f->w->columns;
+    const vreal quantum = v_set((sph_real)f->sim->grid.quantum);
+    sph_real *const k0 = to + (size_t)(SPH_NL + SPH_NT) * row, *const u0 = k0 + (size_t)SPH_DIM * row;
+    for (uint32_t j = 0; j < n; j += SPH_W) {
+        const uint32_t i = s + j;
+        if (asked & SPH_COL_STRESS)
+            load_stress(f, im, set, i, to + j, row);
+        for (uint32_t k = 0; k < SPH_DIM && SPH_HAS_TOTAL && asked & SPH_COL_REFERENCE; k++) {
+            const vint q = v_load_int(f->b->pos[k] + i) - v_load_int(f->b->shift[k] + i);
+            v_store(k0 + k * row + j, v_from_int(q * v_set_int(im->sign[k]) + v_set_int(im->shift[k] - f->origin[k])) * quantum);
+        }
+        for (uint32_t k = 0; k < SPH_DIM && SPH_HAS_HAT && asked & SPH_COL_SMOOTHED; k++)
+            v_store(u0 + k * row + j, (v_load(f->b->vel[k] + i) + v_load(f->b->xsph[k] + i)) * im->flip[k]);
+    }
+    sph_real *const body = u0 + (size_t)SPH_DIM * row;
+    for (uint32_t j = 0; j < n && SPH_HAS_TOTAL && asked & SPH_COL_REFERENCE; j++) {
+        const bool broken = f->b->damage[0] && !(f->b->damage[0][s + j] < 1);
+        body[j] = set->role == SPH_ROLE_SOLID && !broken ? (sph_real)(set->body + 1) : 0;
+    }
+}
+#endif
 
 #if SPH_HAS_FORCE_WALLS
 /* positions only, for boundary-force particles */
@@ -152,6 +304,15 @@ static void close_tile(const filling *f, sph_tile *t, bool ghost)
         }
         t->m[j] = t->a[j] = 0;
         t->rho[j] = t->iv[j] = 1;
+#if SPH_WITH_SOLID
+        if (!ghost && f->w->columns) { /* whatever they hold must stay finite when multiplied by no mass */
+            sph_real *const c = f->t->solid.t[0] + j;
+            for (uint32_t k = 0; k < sizeof(sph_solid_tile) / sizeof f->t->solid.t[0]; k++)
+                c[k * (SPH_TILE + SPH_STRIDE)] = 0;
+            for (uint32_t k = 0; k < SPH_DIM; k++)
+                f->t->solid.k[k][j] = far;
+        }
+#endif
         if (ghost)
             f->t->more.depth[j] = f->t->more.vis[j] = 0;
     }
@@ -187,13 +348,18 @@ static void flush(filling *f, uint32_t role)
 static void add_run(filling *f, const image *im, const sph_set *set, uint32_t s, uint32_t e)
 {
     sph_thread *t = f->t;
+    const uint32_t role = sph_is_body(set) ? SPH_ROLE_FLUID : set->role; /* solids stand in the fluid's tile */
     while (s < e) {
-        uint32_t *n = tile_count(t, set->role);
+        uint32_t *n = tile_count(t, role);
         if (*n == SPH_TILE)
-            flush(f, set->role);
+            flush(f, role);
         uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
-        if (set->role == SPH_ROLE_FLUID)
+        if (sph_is_body(set))
             load(f, im, set, s, take, &t->fluid);
+#if SPH_WITH_SOLID
+        if (f->w->columns && sph_is_body(set))
+            load_solid(f, im, set, s, take, t->solid.t[0] + *n, SPH_TILE + SPH_STRIDE);
+#endif
 #if SPH_HAS_LAYERED_WALLS
         if (set->role == SPH_ROLE_GHOST) {
             load(f, im, set, s, take, &t->ghost);
@@ -337,6 +503,10 @@ static void load_homes(filling *f, uint32_t *s, uint32_t e)
         }
         uint32_t n = r - *s < SPH_HOMES - f->homes ? r - *s : SPH_HOMES - f->homes;
         load(f, &no_image, &f->sim->set[set], *s, n, &t->home);
+#if SPH_WITH_SOLID
+        if (f->w->columns)
+            load_solid(f, &no_image, &f->sim->set[set], *s, n, t->solid_home.t[0] + f->homes, SPH_HOMES + SPH_LANES);
+#endif
         for (uint32_t j = 0; j < n; j++) {
             t->home_at[f->homes + j] = *s + j;
             t->home_set[f->homes + j] = set;

@@ -15,7 +15,7 @@
 #define SPH_TILE (SPH_DIM == 1 ? 64 : SPH_DIM == 2 ? 128 : 384)
 #define SPH_STRIDE (SPH_DIM == 1 ? 8u : SPH_DIM == 2 ? 24u : 48u) /* room behind a tile, for copies of fixed length */
 #define SPH_HOMES 16u /* a multiple of 8 */
-#define SPH_SUMS (SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12)
+#define SPH_SUMS ((SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12) + (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0))
 /* particles that load_columns copies without asking how many there are: a row has about SPH_STRIDE, and a loop of fixed length
    saves a branch that would be mispredicted; where a register holds one real, copying too many costs more */
 #define SPH_COPIED (SPH_SCALAR ? 1u : SPH_STRIDE)
@@ -41,6 +41,22 @@ typedef struct sph_ghost_tile {
     sph_real vis[SPH_TILE + SPH_STRIDE];        /* 1: viscosity acts, 0: free slip */
 } sph_ghost_tile;
 
+/* what scenes with solids have besides; n: room for so many particles */
+#define SPH_SOLID_COLUMNS(n)                                                                                \
+    sph_real t[SPH_NL][n];  /* T: -sigma/rho^2, -sigma M^-T/rho, or -sigma (weak) */                        \
+    sph_real r[SPH_NT][n];  /* artificial stress R, like T */                                               \
+    sph_real k[SPH_DIM][n]; /* TOTAL: reference position (m), from the home cell's low corner */            \
+    sph_real u[SPH_DIM][n]; /* velocity that strain rates see */                                            \
+    sph_real body[n]        /* TOTAL: the body's number + 1, 0: none */
+typedef struct sph_solid_tile {
+    SPH_SOLID_COLUMNS(SPH_TILE + SPH_STRIDE);
+} sph_solid_tile;
+typedef struct sph_solid_homes {
+    SPH_SOLID_COLUMNS(SPH_HOMES + SPH_LANES);
+} sph_solid_homes;
+/* which of them a sweep asks for */
+enum { SPH_COL_STRESS = 1, SPH_COL_REFERENCE = 2, SPH_COL_SMOOTHED = 4 };
+
 /* what the sort works on: new positions (and where asked, velocities and densities) of a block of particles */
 #define SPH_BLOCK 64u
 typedef struct sph_block {
@@ -57,6 +73,10 @@ typedef struct sph_thread {
         struct { /* sweeps */
             sph_tile home, fluid, ghost;
             sph_ghost_tile more;
+#if SPH_WITH_SOLID
+            sph_solid_homes solid_home;
+            sph_solid_tile solid;
+#endif
             uint32_t forces; /* boundary-force particles: set and position only */
             sph_real fx[SPH_DIM][SPH_TILE + SPH_STRIDE];
             uint8_t fset[SPH_TILE + SPH_STRIDE];
@@ -79,6 +99,7 @@ typedef struct sph_sweep {
     uint32_t classes;  /* an or of 1 << SPH_ROLE_... that are candidates */
     uint32_t sums;     /* how many of SPH_SUMS it uses */
     bool needs_iv;
+    uint32_t columns;  /* of solids: an or of SPH_COL_... */
     void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role); /* add a tile to the homes' sums */
     void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                     /* a home's sums are complete */
 } sph_sweep;

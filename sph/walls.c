@@ -58,6 +58,7 @@ static double normal_force(const sph_sim *sim, const sph_set *s, double r)
 void sph_force_walls(const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const double dx = sim->cfg.spacing;
+    const uint32_t sum = SUM_FORCE + sph_sum_shift(&sim->cfg);
     double f[SPH_DIM] = {0}, power = 0;
     for (uint32_t j = 0; j < t->forces; j++) {
         const sph_set *s = &sim->set[t->fset[j]];
@@ -86,8 +87,8 @@ void sph_force_walls(const sph_sim *sim, sph_thread *t, uint32_t h)
         }
     }
     for (int k = 0; k < SPH_DIM; k++)
-        t->sum[SUM_FORCE][h][k] += (sph_real)f[k];
-    t->sum[SUM_FORCE][h][SPH_DIM] += (sph_real)power;
+        t->sum[sum][h][k] += (sph_real)f[k];
+    t->sum[sum][h][SPH_DIM] += (sph_real)power;
 }
 
 #endif
@@ -158,7 +159,7 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {adami_home, 1u << SPH_ROLE_FLUID, SUM_UW + SPH_DIM, false, adami_tile, adami_finish};
+    static const sph_sweep w = {adami_home, SPH_BODIES, SUM_UW + SPH_DIM, false, 0, adami_tile, adami_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static void adami_copy_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
@@ -181,8 +182,8 @@ const sph_pass sph_pass_adami_copy = {"adami copy", sph_local_chunks, adami_copy
 
 #endif
 
-#if SPH_WITH_MOVING_WALLS
-/* ---- walls that move or vanish ---- */
+#if SPH_HAS_GROUPS
+/* ---- walls and held sets that move, vanish, or are let go ---- */
 
 sph_status sph_move_groups(sph_sim *sim, double t)
 {
@@ -243,7 +244,7 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
     uint32_t found = SPH_MAX_SETS;
     for (uint32_t w = 0; w < sim->sets; w++) {
         const sph_set *s = &sim->set[w];
-        if (s->role == SPH_ROLE_FLUID || s->corner || sph_wall_removed(sim, s))
+        if (sph_is_body(s) || s->corner || sph_wall_removed(sim, s))
             continue;
         double x[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++)
@@ -271,7 +272,10 @@ static void put_back(sph_sim *sim, const sph_buffer *b, uint32_t i, const sph_se
     double vn = 0, off = depth + SPH_PUT_BACK_SPACINGS * sim->cfg.spacing;
     for (int k = 0; k < SPH_DIM; k++) {
         const double q = off * s->normal[k] / sim->grid.quantum; /* a wall is at most 64 spacings thick: fits */
-        b->pos[k][i] = near_quanta(sim, k, b->pos[k][i] + (int64_t)(q < 0 ? q - 0.5 : q + 0.5));
+        const sph_pos to = near_quanta(sim, k, b->pos[k][i] + (int64_t)(q < 0 ? q - 0.5 : q + 0.5));
+        if (SPH_HAS_TOTAL && b->shift[k])
+            b->shift[k][i] += to - b->pos[k][i];
+        b->pos[k][i] = to;
         vn += ((double)b->vel[k][i] - sph_wall_velocity(sim, s, (uint32_t)k)) * s->normal[k];
     }
     if (vn < 0)
@@ -309,7 +313,7 @@ void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
     memset(near, 0, last - first);
     for (uint32_t w = 0; w < sim->sets; w++) {
         const sph_set *s = &sim->set[w];
-        if (s->role == SPH_ROLE_FLUID || s->corner || sph_wall_removed(sim, s))
+        if (sph_is_body(s) || s->corner || sph_wall_removed(sim, s))
             continue;
         /* one loop a wall over integers: compilers make vectors of it */
         sph_pos lo[SPH_DIM], hi[SPH_DIM];
@@ -328,7 +332,7 @@ void sph_cross_walls(sph_sim *sim, uint32_t first, uint32_t last, sph_thread *t)
         }
     }
     for (uint32_t i = first; i < last; i++)
-        if (near[i - first] && b->set[0][i] != SPH_DEAD && sim->set[b->set[0][i]].role == SPH_ROLE_FLUID)
+        if (near[i - first] && b->set[0][i] != SPH_DEAD && sph_is_body(&sim->set[b->set[0][i]]))
             cross_one(sim, i, t);
 }
 #endif

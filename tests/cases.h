@@ -15,9 +15,12 @@ typedef struct bits_case {
     const char *name;
     uint32_t kernel, scheme, density, eos, viscosity, diffusion, integrator, wall, face;
     bool xsph, shepard, books, moving, gate, body, floor, slip_less, compressible, damped, fixed_dt;
+    uint32_t solid, yield, damage, repel; /* damage: none in 1-D */
+    bool hat, held, beside;               /* strain rates smoothed; one end held and pulled; a gas beside the rock */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
+#define CASE_SOLID .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = CASE_NO_WALL
 static const bits_case bits_cases[] = {
     {"base", CASE_BASE},
     {"kernel_cubic", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI},
@@ -71,6 +74,26 @@ static const bits_case bits_cases[] = {
     {"body_force", CASE_BASE, .body = true, .books = true},
     {"damped", CASE_BASE, .damped = true},
     {"fixed_dt", CASE_BASE, .fixed_dt = true, .integrator = SPH_KICK_DRIFT_KICK},
+    {"solid", CASE_SOLID, .solid = SPH_UPDATED},
+    {"solid_principal", CASE_SOLID, .solid = SPH_UPDATED, .repel = SPH_PRINCIPAL},
+    {"solid_components", CASE_SOLID, .solid = SPH_UPDATED, .repel = SPH_COMPONENTS, .xsph = true},
+    {"solid_corrected", CASE_SOLID, .solid = SPH_CORRECTED},
+    {"solid_total", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = CASE_NO_WALL, .solid = SPH_TOTAL},
+    {"solid_total_damage", .kernel = SPH_QUINTIC, .viscosity = SPH_ARTIFICIAL, .wall = CASE_NO_WALL, .solid = SPH_TOTAL,
+     .damage = SPH_BENZ_ASPHAUG, .face = SPH_SYMMETRY},
+    {"solid_strong", CASE_SOLID, .solid = SPH_UPDATED, .yield = SPH_VON_MISES, .damage = SPH_BENZ_ASPHAUG, .repel = SPH_PRINCIPAL,
+     .books = true},
+    {"solid_gray", CASE_SOLID, .solid = SPH_UPDATED, .yield = SPH_VON_MISES_GRAY, .damage = SPH_BENZ_ASPHAUG_GRAY, .hat = true,
+     .xsph = true},
+    {"solid_weak", CASE_SOLID, .solid = SPH_CORRECTED, .scheme = SPH_WEAK, .yield = SPH_VON_MISES},
+    {"solid_kick_drift_kick", CASE_SOLID, .solid = SPH_CORRECTED, .integrator = SPH_KICK_DRIFT_KICK, .yield = SPH_VON_MISES, .held = true},
+    {"solid_leap_frog", CASE_SOLID, .solid = SPH_UPDATED, .integrator = SPH_LEAP_FROG, .repel = SPH_PRINCIPAL, .held = true},
+    {"solid_runge_kutta", CASE_SOLID, .solid = SPH_TOTAL, .integrator = SPH_RUNGE_KUTTA, .yield = SPH_VON_MISES,
+     .damage = SPH_BENZ_ASPHAUG, .held = true, .books = true},
+    {"solid_periodic", CASE_SOLID, .solid = SPH_CORRECTED, .face = SPH_PERIODIC, .repel = SPH_PRINCIPAL},
+    {"solid_symmetry", CASE_SOLID, .solid = SPH_UPDATED, .face = SPH_SYMMETRY, .repel = SPH_COMPONENTS},
+    {"solid_beside_gas", CASE_SOLID, .solid = SPH_UPDATED, .beside = true, .repel = SPH_PRINCIPAL},
+    {"solid_in_tank", CASE_BASE, .solid = SPH_CORRECTED, .beside = true},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -78,7 +101,7 @@ enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 #define CASE_STEPS (SPH_DIM == 3 ? 6u : 12u)
 #define CASE_DX 0.1
 /* enough for any case: asserted by the runners through the status of sph_init */
-#define CASE_ARENA_BYTES (SPH_DIM == 3 ? 2u << 20 : 1u << 20)
+#define CASE_ARENA_BYTES (SPH_DIM == 3 ? 3u << 20 : 3u << 19)
 
 static __attribute__((unused)) void case_motion(void *ctx, double t, double *x, double *v)
 {
@@ -117,6 +140,12 @@ static sph_config case_config(const bits_case *b)
     c.pressure_floor = b->floor;
     c.damping = b->damped ? 0.99 : 1;
     c.dt = b->fixed_dt ? 0.5e-3 : 0;
+    c.solid = b->solid;
+    c.yield = b->yield;
+    c.damage = SPH_DIM > 1 ? b->damage : SPH_NO_DAMAGE;
+    c.max_flaws = 40000;
+    c.artificial_stress = b->repel;
+    c.xsph_strain = b->hat;
     c.on_leave = SPH_REMOVE;
     c.on_cross = SPH_PUT_BACK;
     if (b->body)
@@ -137,8 +166,9 @@ static sph_config case_config(const bits_case *b)
     return c;
 }
 
-/* the water: a lattice jittered by up to a tenth of a spacing, speeds up to half a metre a second */
-static sph_status case_water(sph_sim *sim, uint32_t set)
+/* the water: a lattice jittered by up to a tenth of a spacing, speeds up to half a metre a second; or the rock, and its
+   lower part `other`: held at the low end, or a gas */
+static sph_status case_water(sph_sim *sim, uint32_t set, uint32_t other, uint32_t part)
 {
     sph_rng rng;
     sph_rng_seed(&rng, 2024, 7);
@@ -151,6 +181,9 @@ static sph_status case_water(sph_sim *sim, uint32_t set)
                     x[k] = (i[k] + 0.4 + 0.2 * sph_rng_uniform(&rng)) * CASE_DX;
                     v[k] = sph_rng_uniform(&rng) - 0.5;
                 }
+                const bool low = i[SPH_DIM - 1] < part;
+                if (low != (set == other)) /* a set's particles come one after the other: two calls */
+                    continue;
                 sph_status st = sph_add_particle(sim, set, x, v, 990 + 20 * sph_rng_uniform(&rng), NULL);
                 if (st)
                     return st;
@@ -190,12 +223,47 @@ static sph_status case_walls(sph_sim *sim, const bits_case *b)
 #endif
 }
 
+#if SPH_WITH_SOLID
+static sph_status case_solids(sph_sim *sim, const bits_case *b, uint32_t *set, uint32_t *other)
+{
+    sph_solid rock = {0};
+    sph_fluid gas = {0};
+    rock.shear = 1e5;
+    rock.yield = b->yield ? 2e3 : 0;
+    rock.hardening = 5e3;
+    sph_status st = sph_add_solid(sim, &rock, set, NULL);
+    rock.held = 1;
+    rock.motion = case_motion;
+    gas.own_eos = true;
+    gas.eos = SPH_ISOTHERMAL;
+    gas.sound_speed = 1;
+    if (!st && b->held)
+        st = sph_add_solid(sim, &rock, other, NULL);
+    if (!st && b->beside)
+        st = sph_add_fluid(sim, &gas, other);
+    return st;
+}
+#endif
+
 static sph_status case_build(sph_sim *sim, const bits_case *b)
 {
-    uint32_t set;
-    sph_status st = sph_add_fluid(sim, NULL, &set);
+    uint32_t set = 0, other = SPH_MAX_SETS;
+    sph_status st = SPH_OK;
+#if SPH_WITH_SOLID
+    if (b->solid)
+        st = case_solids(sim, b, &set, &other);
+    else
+#endif
+        st = sph_add_fluid(sim, NULL, &set);
     if (!st)
-        st = case_water(sim, set);
+        st = case_water(sim, set, other, other < SPH_MAX_SETS ? 4 : 0);
+    if (!st && other < SPH_MAX_SETS)
+        st = case_water(sim, other, other, 4);
+#if SPH_HAS_DAMAGE
+    const sph_flaws flaws = {1e12, 8.5, 11};
+    if (!st && SPH_DIM > 1 && b->damage)
+        st = sph_add_flaws(sim, set, &flaws);
+#endif
     if (!st && b->wall != CASE_NO_WALL)
         st = case_walls(sim, b);
     return st;

@@ -1,0 +1,388 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* solid.c: stress. Rates of the deviatoric stress, its way through a step, yield, corrected gradients, smoothed velocities
+   for the strain rates. The pair formulas are in solid.h and fluid.c; flaws and damage in damage.c.
+
+     rates      dS/dt = 2 mu (e - tr e/3) + W S - S W,  e = (L + L^T)/2, W = (L - L^T)/2   (Jaumann; Gray 2001 eqs 5.7-5.9)
+     yield      S f, f = Y/sqrt(3 J2) where that is below 1, J2 = S:S/2 with the zz part      (von Mises; Gray 5.13-5.15 mended)
+     correction M = -sum m_j x_ij (x) K g, kept as M^-1                                       (Bonet & Lok 1999)
+     smoothing  xsph, for strain rates from v + xsph                                         (Gray 2001 eqs 2.22, 5.10)
+
+   Arrays: stress and dstress (1, 3 or 5 reals each, in every state buffer), plastic, shift where chosen; M^-1 (DIM^2 reals, once).
+   Cost: the sums of the force sweep, a local pass after every sort, and a sweep each for correction and smoothing. */
+#include "solid.h"
+
+#if SPH_WITH_SOLID
+#include "fluid.h"
+#include "kernels.h"
+
+/* ---- rates ---- */
+
+/* the deviatoric stress of one particle as a full tensor; in 2-D and 1-D of the plane or line only */
+static void tensor_of(const sph_buffer *b, uint32_t i, sph_real (*s)[SPH_DIM])
+{
+    sph_real kept[SPH_NS], full[6] = {0};
+    for (uint32_t k = 0; k < SPH_NS; k++)
+        kept[k] = b->stress[k][i];
+#if SPH_DIM < 3
+    memcpy(full, kept, sizeof kept);
+#else
+    const sph_real all[6] = {kept[0], kept[1], -(kept[0] + kept[1]), kept[2], kept[3], kept[4]};
+    memcpy(full, all, sizeof full);
+#endif
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t l = 0; l < SPH_DIM; l++)
+            s[k][l] = full[sph_sym[k][l]];
+}
+
+sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const bool weak = sph_weak_scheme(sim->cfg.scheme), corrects = sph_corrects(&sim->cfg) && set->role == SPH_ROLE_SOLID;
+    sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], rate[6], trace = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = 0; c < SPH_DIM; c++) {
+            sph_real sum = weak ? raw[k * SPH_DIM + c] : raw[k * SPH_DIM + c] / rho;
+            if (corrects) {
+                sum = 0;
+                for (uint32_t m = 0; m < SPH_DIM; m++)
+                    sum += raw[k * SPH_DIM + m] * sim->corr[m * SPH_DIM + c][i];
+            }
+            l[k][c] = -sum;
+        }
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        trace += l[k][k];
+    if (set->role != SPH_ROLE_SOLID)
+        return -trace;
+    tensor_of(b, i, s);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = k; c < SPH_DIM; c++) {
+            sph_real turn = 0; /* (W S - S W)_kc; S is symmetric, W antisymmetric */
+            for (uint32_t m = 0; m < SPH_DIM; m++)
+                turn += (sph_real)0.5 * ((l[k][m] - l[m][k]) * s[m][c] + (l[c][m] - l[m][c]) * s[m][k]);
+            const sph_real e = (sph_real)0.5 * (l[k][c] + l[c][k]) - (k == c ? trace / 3 : 0);
+            rate[sph_sym[k][c]] = 2 * set->shear_r * e + turn;
+        }
+#if SPH_DIM == 3
+    rate[2] = rate[3];
+    rate[3] = rate[4];
+    rate[4] = rate[5];
+#endif
+    for (uint32_t k = 0; k < SPH_NS; k++)
+        b->dstress[k][i] = rate[k];
+    return -trace;
+}
+
+/* ---- the stress's way through a step ---- */
+
+#if SPH_HAS_YIELD
+/* S:S of particle i; the out-of-plane parts included unless `plane` */
+static sph_real square(const sph_buffer *b, uint32_t i, bool plane)
+{
+#if SPH_DIM == 1
+    const sph_real x = b->stress[0][i]; /* yy = zz = -xx/2 */
+    return x * x * (plane ? 1 : (sph_real)1.5);
+#elif SPH_DIM == 2
+    const sph_real x = b->stress[0][i], y = b->stress[1][i], xy = b->stress[2][i], z = plane ? 0 : x + y;
+    return x * x + y * y + z * z + 2 * (xy * xy);
+#else
+    const sph_real x = b->stress[0][i], y = b->stress[1][i], xy = b->stress[2][i], xz = b->stress[3][i], yz = b->stress[4][i];
+    (void)plane;
+    return x * x + y * y + (x + y) * (x + y) + 2 * (xy * xy + xz * xz + yz * yz);
+#endif
+}
+
+/* returns the stresses of a run of one set to the yield surface */
+static void yield_run(const sph_sim *sim, const sph_set *set, const sph_buffer *b, uint32_t first, uint32_t last)
+{
+    const bool printed = sim->cfg.yield == SPH_VON_MISES_GRAY;
+    const sph_real y0 = (sph_real)set->yield, hard = (sph_real)set->hardening, mu3 = 3 * set->shear_r;
+    for (uint32_t i = first; i < last; i++) {
+        const sph_real y = y0 + hard * b->plastic[0][i], s3 = (sph_real)1.5 * square(b, i, printed); /* 3 J2 */
+        if (!(s3 > y * y))
+            continue;
+        const sph_real q = SPH_SQRT(s3);
+        sph_real strain, f;
+        if (printed) {
+            f = y * y / s3;
+            strain = (q - q * f) / mu3;
+        } else {
+            strain = (q - y) / (mu3 + hard);
+            f = (y + hard * strain) / q;
+        }
+        b->plastic[0][i] += strain;
+        for (uint32_t k = 0; k < SPH_NS; k++)
+            b->stress[k][i] *= f;
+    }
+}
+#endif
+
+#if SPH_HAS_TOTAL
+/* displacement since the start: what the particle moved in this stage, round a periodic domain if need be */
+static void add_shift(const sph_sim *sim, uint32_t i, uint32_t p)
+{
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const sph_pos half = sim->grid.extent[k] / 2;
+        sph_pos d = b->pos[k][i] - o->pos[k][p];
+        if (SPH_IS(sim->cfg.face[k][0], PERIODIC))
+            d = d > half ? d - sim->grid.extent[k] : d < -half ? d + sim->grid.extent[k] : d;
+        b->shift[k][i] = o->shift[k][p] + d;
+    }
+}
+#endif
+
+/* new = old + dt rate, in one of the ways of an integrator; ids are still indices of the source buffer */
+void sph_advance_stress(sph_sim *sim, uint32_t first, uint32_t last, uint32_t how)
+{
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const uint32_t *from = b->id[0];
+    const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5, rate = sph_stage_rate(sim) * dt;
+    for (uint32_t k = 0; k < SPH_NS; k++) {
+        sph_real *s = b->stress[k];
+        const sph_real *d = b->dstress[k], *os = o->stress[k], *od = o->dstress[k];
+        if (how == SPH_STRESS_CARRY)
+            for (uint32_t i = first; i < last; i++)
+                s[i] = os[from[i]] + rate * od[from[i]];
+        else if (how == SPH_STRESS_CORRECT)
+            for (uint32_t i = first; i < last; i++)
+                s[i] = s[i] + half * (d[i] - od[from[i]]);
+        else if (how == SPH_STRESS_WHOLE)
+            for (uint32_t i = first; i < last; i++)
+                s[i] = s[i] + dt * d[i];
+        else
+            for (uint32_t i = first; i < last; i++)
+                s[i] = os[from[i]] + dt * d[i];
+    }
+    const bool carries = how == SPH_STRESS_CARRY || how == SPH_STRESS_RK;
+    for (uint32_t i = first; i < last && carries && SPH_HAS_YIELD && b->plastic[0]; i++)
+        b->plastic[0][i] = o->plastic[0][from[i]];
+    for (uint32_t i = first; i < last && how == SPH_STRESS_CARRY && SPH_HAS_DAMAGE && b->damage[0]; i++)
+        b->damage[0][i] = o->damage[0][from[i]];
+#if SPH_HAS_TOTAL
+    for (uint32_t i = first; i < last && carries && b->shift[0]; i++)
+        add_shift(sim, i, from[i]);
+#endif
+#if SPH_HAS_YIELD
+    for (uint32_t i = first, e; i < last && b->plastic[0]; i = e) {
+        e = sph_run_end(b->set[0], i, last);
+        if (b->set[0][i] != SPH_DEAD && sim->set[b->set[0][i]].yield > 0)
+            yield_run(sim, &sim->set[b->set[0][i]], b, i, e);
+    }
+#endif
+}
+
+static bool has_solids(const sph_sim *sim) { return sph_has_solids(&sim->cfg); }
+
+static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const uint32_t i = chunk * SPH_LOCAL_CHUNK, last = i + SPH_LOCAL_CHUNK < sim->next.count ? i + SPH_LOCAL_CHUNK : sim->next.count;
+    sph_advance_stress(sim, i, last, SPH_STRESS_CARRY);
+    for (uint32_t k = 0; k < SPH_NS; k++) /* walls get no rates */
+        memset(sim->buf[sim->dst].dstress[k] + i, 0, (last - i) * sizeof(sph_real));
+    t->work += last - i;
+}
+const sph_pass sph_pass_carry = {"stress", sph_local_chunks, carry_chunk, NULL, has_solids};
+
+/* the stress after damage, for those who look at it between steps */
+double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress)
+{
+    const sph_set *set = &sim->set[b->set[0][i]];
+    double p = sph_pressure(sim, set, (double)b->rho[0][i]), damage = 0, d[5] = {0};
+    if (SPH_HAS_DAMAGE && b->damage[0]) {
+        const double root = (double)b->damage[0][i];
+        damage = SPH_DIM == 3 ? root * root * root : root * root;
+    }
+    for (uint32_t k = 0; k < SPH_NS; k++)
+        d[k] = (double)b->stress[k][i] * (1 - damage);
+    p = p < 0 ? p * (1 - damage) : p;
+#if SPH_DIM == 1
+    const double s[6] = {d[0], -0.5 * d[0], -0.5 * d[0], 0, 0, 0};
+#elif SPH_DIM == 2
+    const double s[6] = {d[0], d[1], -(d[0] + d[1]), d[2], 0, 0};
+#else
+    const double s[6] = {d[0], d[1], -(d[0] + d[1]), d[2], d[3], d[4]};
+#endif
+    for (int k = 0; k < 6; k++)
+        stress[k] = s[k] - (k < 3 ? p : 0);
+    return damage;
+}
+
+/* ---- corrected gradients ---- */
+
+#if SPH_HAS_CORRECTION
+static bool solid_home(const sph_sim *sim, const sph_set *s)
+{
+    (void)sim;
+    return s->role == SPH_ROLE_SOLID;
+}
+
+enum { SUM_FAR = SPH_NL };
+
+/* adds the tile's part of M to a home's sums, and the longest bond (m^2) of reference neighbours */
+static void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, bool total, bool wall)
+{
+    const sph_tile *c = wall ? &t->ghost : &t->fluid;
+    const uint32_t kernel = sim->cfg.kernel;
+    const bool weak = sph_weak_scheme(sim->cfg.scheme);
+    const vreal inv_h = v_set(sim->fac.inv_h);
+    for (uint32_t j = 0; j < c->n; j += SPH_W) {
+        const uint32_t lane = j % SPH_LANES;
+        vreal dx[SPH_DIM], kx[SPH_DIM], k2 = v_set(0), x2 = v_set(0);
+        vint same = v_set_int(0);
+        if (total && !wall)
+            same = v_less(v_set((sph_real)0.5), v_set(t->solid_home.body[h])) & v_equal(v_set(t->solid_home.body[h]), v_load(t->solid.body + j));
+        for (int k = 0; k < SPH_DIM; k++) {
+            kx[k] = dx[k] = v_set(t->home.x[k][h]) - v_load(c->x[k] + j);
+            if (total && !wall)
+                kx[k] = v_select(same, v_set(t->solid_home.k[k][h]) - v_load(t->solid.k[k] + j), dx[k]);
+            k2 = k2 + kx[k] * kx[k];
+            x2 = x2 + dx[k] * dx[k];
+        }
+        const vreal q = v_sqrt(k2) * inv_h;
+        vreal mg = k_slope(kernel, q) * v_load(c->m + j);
+        if (weak)
+            mg = mg * v_load(c->iv + j);
+        for (int k = 0; k < SPH_DIM; k++)
+            for (int l = 0; l < SPH_DIM; l++) {
+                sph_real *sum = t->sum[k * SPH_DIM + l][h] + lane;
+                v_store(sum, v_load(sum) + mg * dx[k] * kx[l]);
+            }
+        if (total && !wall) {
+            sph_real *sum = t->sum[SUM_FAR][h] + lane;
+            v_store(sum, v_max(v_load(sum), v_where(same & v_less(q, v_set(sim->fac.reach)), x2)));
+        }
+    }
+}
+
+static void correction_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    for (uint32_t h = 0; h < homes; h++)
+        correction_home(sim, t, h, sph_is_total(&sim->cfg), role == SPH_ROLE_GHOST);
+}
+
+/* inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same trace */
+static bool invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM])
+{
+    sph_real det, mean = 0;
+    for (int k = 0; k < SPH_DIM; k++)
+        mean += m[k][k] / SPH_DIM;
+#if SPH_DIM == 1
+    det = m[0][0];
+    const bool fine = mean > 0;
+    inv[0][0] = 1 / (fine ? det : 1);
+    return fine;
+#elif SPH_DIM == 2
+    det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    if (!(mean > 0 && det > (sph_real)1e-3 * (mean * mean)))
+        return false;
+    inv[0][0] = m[1][1] / det;
+    inv[1][1] = m[0][0] / det;
+    inv[0][1] = -m[0][1] / det;
+    inv[1][0] = -m[1][0] / det;
+    return true;
+#else
+    sph_real co[3][3];
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++) {
+            const int a = (k + 1) % 3, b = (k + 2) % 3, c = (l + 1) % 3, d = (l + 2) % 3;
+            co[k][l] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
+        }
+    det = m[0][0] * co[0][0] + m[0][1] * co[0][1] + m[0][2] * co[0][2];
+    if (!(mean > 0 && det > (sph_real)1e-3 * (mean * mean * mean)))
+        return false;
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++)
+            inv[k][l] = co[l][k] / det;
+    return true;
+#endif
+}
+
+static void correction_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const uint32_t i = t->home_at[h];
+    const bool weak = sph_weak_scheme(sim->cfg.scheme);
+    const sph_real plain = weak ? 1 : 1 / t->home.rho[h];
+    sph_real m[SPH_DIM][SPH_DIM], inv[SPH_DIM][SPH_DIM];
+    for (int k = 0; k < SPH_DIM; k++)
+        for (int l = 0; l < SPH_DIM; l++)
+            m[k][l] = -v_fold(t->sum[k * SPH_DIM + l][h]) * sim->fac.slope;
+    const bool fine = invert((const sph_real(*)[SPH_DIM])m, inv);
+    for (int k = 0; k < SPH_DIM; k++)
+        for (int l = 0; l < SPH_DIM; l++)
+            sim->corr[k * SPH_DIM + l][i] = fine ? inv[k][l] : k == l ? plain : 0;
+#if SPH_HAS_TOTAL
+    if (!sph_is_total(&sim->cfg))
+        return;
+    for (uint32_t k = 0; k < SPH_DIM; k++) { /* integers of reference positions must not overflow */
+        const sph_pos s = sim->buf[sim->dst].shift[k][i], half = sim->grid.extent[k] / 2;
+        if (s > half || s < -half)
+            sph_fail_note(t, SPH_MOVED_TOO_FAR, sim->buf[sim->src].id[0][sim->buf[sim->dst].id[0][i]], (double)s * sim->grid.quantum);
+    }
+    const sph_real far = v_fold_max(t->sum[SUM_FAR][h]), most = (sph_real)(sim->grid.support * sim->cfg.max_stretch);
+    if (!(far < most * most))
+        sph_fail_note(t, SPH_BOND_TOO_LONG, sim->buf[sim->src].id[0][sim->buf[sim->dst].id[0][i]], __builtin_sqrt((double)far));
+#endif
+}
+
+static void correction_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const bool total = sph_is_total(&sim->cfg);
+    const sph_sweep w = {solid_home,
+                         SPH_BODIES | 1u << SPH_ROLE_GHOST,
+                         total ? SPH_NL + 1 : SPH_NL,
+                         sph_weak_scheme(sim->cfg.scheme),
+                         total ? SPH_COL_REFERENCE : 0,
+                         correction_tile,
+                         correction_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
+}
+static bool corrects(const sph_sim *sim) { return sph_corrects(&sim->cfg); }
+const sph_pass sph_pass_correction = {"correction", sph_sweep_chunks, correction_chunk, NULL, corrects};
+#endif
+
+/* ---- smoothed velocities for the strain rates ---- */
+
+#if SPH_HAS_HAT
+static bool body_home(const sph_sim *sim, const sph_set *s)
+{
+    (void)sim;
+    return sph_is_body(s);
+}
+
+static void smooth_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    const sph_tile *c = &t->fluid;
+    (void)role;
+    for (uint32_t h = 0; h < homes; h++)
+        for (uint32_t j = 0; j < c->n; j += SPH_W) {
+            const uint32_t lane = j % SPH_LANES;
+            vreal r2 = v_set(0);
+            for (int k = 0; k < SPH_DIM; k++) {
+                const vreal d = v_set(t->home.x[k][h]) - v_load(c->x[k] + j);
+                r2 = r2 + d * d;
+            }
+            const vreal w = k_value(sim->cfg.kernel, v_sqrt(r2) * sim->fac.inv_h) * v_load(c->m + j) / (t->home.rho[h] + v_load(c->rho + j));
+            for (int k = 0; k < SPH_DIM; k++) {
+                sph_real *sum = t->sum[k][h] + lane;
+                v_store(sum, v_load(sum) + w * (v_load(c->v[k] + j) - t->home.v[k][h]));
+            }
+        }
+}
+
+static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const uint32_t i = t->home_at[h], held = sph_held(sim, &sim->set[t->home_set[h]]);
+    const sph_real scale = sim->fac.value * (sph_real)(2 * sim->cfg.xsph);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        sim->buf[sim->dst].xsph[k][i] = held >> k & 1 ? 0 : v_fold(t->sum[k][h]) * scale;
+}
+
+static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    static const sph_sweep w = {body_home, SPH_BODIES, SPH_DIM, false, 0, smooth_tile, smooth_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
+}
+static bool smooths(const sph_sim *sim) { return sph_smooths_strain(&sim->cfg); }
+const sph_pass sph_pass_smooth = {"smoothing", sph_sweep_chunks, smooth_chunk, NULL, smooths};
+#endif
+#endif
