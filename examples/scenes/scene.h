@@ -37,6 +37,10 @@ _Static_assert(SCENE_COMMON == SCENE_COMMON_COUNT, "scene_param.h must say how m
 
 /* The first rows of a scene's parameter table, with the defaults in which scenes differ. */
 #define SCENE_COMMON_PARAMS(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_)   \
+    SCENE_PARAMS_OF(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_,           \
+                    SPH_PREDICTOR_CORRECTOR, 0.25)
+#define SCENE_PARAMS_OF(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_,       \
+                        integrator_, cfl_)                                                                             \
     {"kernel", "-", "smoothing kernel: cubic quartic quintic gaussian wendland_c2 wendland_c4 hat", kernel_, 0,        \
      SPH_KERNELS - 1, SCENE_CHOICE},                                                                                   \
     {"h", "dx", "smoothing length in spacings", h_, 0.5, 10, SCENE_NUMBER},                                            \
@@ -56,7 +60,7 @@ _Static_assert(SCENE_COMMON == SCENE_COMMON_COUNT, "scene_param.h must say how m
     {"shepard", "steps", "Shepard density filter every so many steps; 0: never", 0, 0, 1e9, SCENE_WHOLE},              \
     {"integrator", "-",                                                                                                \
      "integrator: predictor_corrector kick_drift_kick leap_frog runge_kutta runge_kutta_momentum",                     \
-     SPH_PREDICTOR_CORRECTOR, 0, SPH_INTEGRATORS - 1, SCENE_CHOICE},                                                   \
+     integrator_, 0, SPH_INTEGRATORS - 1, SCENE_CHOICE},                                                   \
     {"wall", "-", "walls: lennard_jones kernel_force monaghan_kos ghost ghost_compressible adami adami_no_slip",       \
      wall_, 0, SCENE_WALLS - 1, SCENE_CHOICE},                                                                         \
     {"strength", "-", "of a boundary force, in the wall's own units (sph.h, section 6); 0: the usual", 0, 0, 1e12,     \
@@ -66,7 +70,7 @@ _Static_assert(SCENE_COMMON == SCENE_COMMON_COUNT, "scene_param.h must say how m
     {"damping", "-", "factor on velocities in predictor and corrector; 1: none", damping_, 0.5, 1, SCENE_NUMBER},      \
     {"damp_steps", "steps", "how long damping acts; 0: to the end", damp_steps_, 0, 1e9, SCENE_WHOLE},                 \
     {"dt", "s", "fixed time step; 0: controlled", 0, 0, 1e9, SCENE_NUMBER},                                            \
-    {"cfl", "-", "Courant factor", 0.25, 1e-3, 10, SCENE_NUMBER},                                                      \
+    {"cfl", "-", "Courant factor", cfl_, 1e-3, 10, SCENE_NUMBER},                                                      \
     {"books", "-", "keep work and dissipation: no yes", books_, 0, 1, SCENE_CHOICE}
 
 /* choices of `wall`; ghosts are "incompressible" unless they say otherwise */
