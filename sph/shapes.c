@@ -47,11 +47,12 @@ static sph_status fill_shape(sph_sim *sim, const char *call, uint32_t set, const
     const double dx = sim->cfg.spacing;
     const bool shifted = s->lattice != SPH_LATTICE_SQUARE;
     const int along = shifted ? (int)s->lattice - 1 : -1;
+    const cut_shape c = {s, RIM * dx};
     double lo[SPH_DIM], hi[SPH_DIM];
     uint32_t middle = 0; /* sum of the numbers of the row through the centre */
     for (int k = 0; k < SPH_DIM; k++) {
         lo[k] = s->lo[k];
-        hi[k] = s->hi[k];
+        hi[k] = s->hi[k] > s->lo[k] ? s->hi[k] + c.slack : s->hi[k];
         if (!is_round(s, k))
             continue;
         const uint32_t n = sph_setup_round_up(s->outline->radius[k] / dx);
@@ -70,7 +71,6 @@ static sph_status fill_shape(sph_sim *sim, const char *call, uint32_t set, const
         rows.offset[middle & 1] = centred ? 0.5 : 0.25;
         rows.offset[~middle & 1] = centred ? 0 : 0.75;
     }
-    const cut_shape c = {s, RIM * dx};
     return sph_setup_fill(sim, call, set, lo, hi, shifted ? &rows : NULL, s->velocity, in_shape, &c);
 }
 

@@ -867,9 +867,9 @@ static const row rows[] = {
 #if SPH_DIM == 3
     ROW(add_wall_plane),
 #endif
-    ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(wall_default), ROW(add_wall_box), ROW(remove_wall),
-    ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel), ROW(get_step), ROW(time),
-    ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge), ROW(extent), ROW(kernel_value),
+    ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(wall_default), ROW(add_wall_box),
+    ROW(remove_wall), ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel),
+    ROW(get_step), ROW(time), ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge), ROW(extent), ROW(kernel_value),
     ROW(kernel_support), ROW(hash), ROW(dump), ROW(restore),
 };
 

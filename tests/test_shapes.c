@@ -146,6 +146,33 @@ static void a_broken_box_holds_the_centres_inside(void **state)
         }
 }
 
+/* centres on the low and the high face of a box belong to it, those on the rim of an outline or a hole to neither */
+static void faces_belong_to_a_box_and_rims_to_nothing(void **state)
+{
+    (void)state;
+    for (int j = 0; j < 20; j++) {
+        sph_sim *sim = room(1);
+        const uint32_t rows = SPH_DIM == 1 ? 1 : SPH_DIM == 2 ? 4 : 16;
+        sph_shape s = box_of(2 * DX, 1, 1, 1);
+        s.lo[0] += 0.013 * j;
+        s.hi[0] = s.lo[0] + (j % 5 + 1.5) * DX;
+        assert_int_equal(added(sim, &s), (uint32_t)(j % 5 + 2) * rows);
+        sph_ellipse e = ellipse_of(INFINITY, 1, 1, 1);
+        e.centre[0] += 0.013 * j;
+        e.radius[0] = 2.5 * DX; /* the third centres from the middle */
+        s.outline = &e;
+        s.lo[0] = s.hi[0] = 0;
+        assert_int_equal(added(sim, &s), 4 * rows);
+        s.outline = NULL;
+        s.hole = &e;
+        s.holes = 1;
+        s.lo[0] = e.centre[0] - 4 * DX;
+        s.hi[0] = e.centre[0] + 4 * DX;
+        assert_int_equal(added(sim, &s), 4 * rows);
+        free_sims(NULL);
+    }
+}
+
 /* what is cut out of a shape and what is put in its place are together the shape, whatever lies on the rim */
 static void a_hole_and_its_disc_are_the_whole(void **state)
 {
@@ -163,8 +190,8 @@ static void a_hole_and_its_disc_are_the_whole(void **state)
 }
 
 /* Errors of the volumes of ellipsoids, of rings, and of plates with a hole, relative to the volume of the ellipsoid, root
-   mean square over many radii. The number of lattice points in a round body of radius R errs by the square root of that of the
-   cells on its rim, (R/dx)^((DIM-1)/2): relative to its volume, at order (DIM + 1)/2 in dx/R. */
+   mean square over many radii. The number of lattice points in a round body of radius R errs by the square root of that of
+   the cells on its rim, (R/dx)^((DIM-1)/2): relative to its volume, at order (DIM + 1)/2 in dx/R. */
 enum { DISC, RING, PLATE, SUBJECTS };
 static const char *const subject_names[] = {"disc", "ring", "plate with a hole"};
 enum { RADII = 128 };
@@ -402,6 +429,18 @@ static void lo_and_hi_cut_an_outline(void **state)
     assert_int_equal(2 * added(sim, &s), whole);
     s.hi[SPH_DIM - 1] = origin[SPH_DIM - 1] + DX;
     const uint32_t slice = added(sim, &s);
+    s.lattice = SPH_DIM > 1;
+    if (SPH_DIM > 1) { /* the row through the centre stands in both halves */
+        s.lo[SPH_DIM - 1] = origin[SPH_DIM - 1];
+        s.hi[SPH_DIM - 1] = origin[SPH_DIM - 1] + 9;
+        const uint32_t upper = added(sim, &s);
+        s.lo[SPH_DIM - 1] = origin[SPH_DIM - 1] - 9;
+        s.hi[SPH_DIM - 1] = origin[SPH_DIM - 1];
+        const uint32_t lower = added(sim, &s);
+        s.lo[SPH_DIM - 1] = s.hi[SPH_DIM - 1] = 0;
+        assert_true(upper == lower);
+        assert_int_equal(upper + lower - added(sim, &s), SPH_DIM == 2 ? 10 : 66); /* a^2 + b^2 < 4.6^2, a + 1/2 by turns */
+    }
     assert_int_equal(slice, SPH_DIM == 1 ? 1 : SPH_DIM == 2 ? 10 : 68); /* (a + 1/2)^2 + (b + 1/2)^2 < 4.6^2 - 1/4 */
 }
 
@@ -552,6 +591,7 @@ int main(void)
         subject(a_square_shape_is_the_box_and_the_ring_of_old),
         subject(a_whole_box_holds_its_volume),
         subject(a_broken_box_holds_the_centres_inside),
+        subject(faces_belong_to_a_box_and_rims_to_nothing),
         subject(a_hole_and_its_disc_are_the_whole),
         subject(the_error_of_a_volume_falls_at_the_right_order),
         subject(a_ring_mirrors_in_every_axis),
