@@ -229,7 +229,7 @@ sph_status sph_setup_fill(sph_sim *sim, const char *call, uint32_t set, const do
                     x[k] = lo[k] + (i[k] + off) * dx;
                     rel[k] = (lo[k] - sim->cfg.lo[k]) + (i[k] + off) * dx;
                 }
-                if (!inside || inside(shape, x))
+                if (!SPH_WITH_SHAPES || !inside || inside(shape, x))
                     st = sph_setup_append(sim, set, rel, v, 0);
             }
     return sph_setup_end_adding(sim, before, st);
