@@ -2,7 +2,8 @@
 /* internal.h: the simulation's own data, and which file does what.
 
    layout.c   configuration checks, the one layout function, init, usage
-   setup.c    sets, particles, lattices, initial fields, equations of state; layers.c walls as rows or layers of particles
+   setup.c    sets, particles, boxes, initial fields, equations of state; layers.c walls as rows or layers of particles
+   shapes.c   rings, polygons, shapes with holes, on square and face-centred lattices
    sort.c     moves particles and orders them by (cell, id): the start of every stage
    sweep.c    the one neighbour sweep: candidates of a cell go into tiles, sums come out
    fluid.c    pair formulas of water: density, momentum, viscosity, diffusion, XSPH, filters

@@ -191,7 +191,7 @@
 #define SPH_WITH_PROBES SPH_WITH_ALL
 #endif
 
-/* rings and polygons; sph_apply_field, sph_apply_hydrostatic */
+/* rings, polygons, shapes with holes; sph_apply_field, sph_apply_hydrostatic */
 #ifndef SPH_WITH_SHAPES
 #define SPH_WITH_SHAPES SPH_WITH_ALL
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* setup.c: sets, particles, lattices, initial fields, the equations of state in double. Runs between steps only. */
+/* setup.c: sets, particles, boxes of them, initial fields, the equations of state in double. Runs between steps only. */
 #include "dmath.h"
 #include "setup.h"
 
@@ -285,10 +285,9 @@ bool sph_setup_near_domain(const sph_sim *sim, int k, double lo, double hi)
     return lo >= sim->cfg.lo[k] - sim->grid.length[k] && hi <= sim->cfg.hi[k] + sim->grid.length[k];
 }
 
-/* calls append for the lattice points of a box for which inside() holds */
-typedef bool (*inside_fn)(const void *shape, const double *x);
-static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const double *lo, const double *hi, const double *v,
-                       inside_fn inside, const void *shape)
+/* appends the lattice points of a box for which inside() holds; rows null: none is shifted */
+sph_status sph_setup_fill(sph_sim *sim, const char *call, uint32_t set, const double *lo, const double *hi,
+                          const sph_rows *rows, const double *v, sph_inside inside, const void *shape)
 {
     sph_status st = sph_setup_begin_adding(sim, call);
     if (st || (st = check_set(sim, set)) != SPH_OK)
@@ -306,6 +305,8 @@ static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const doubl
         if ((n[k] = sph_setup_intervals(hi[k] - lo[k], dx)) == 0)
             return sph_setup_bad(sim, "hi", "at most 2^30 spacings from lo", hi[k]);
     }
+    if (SPH_WITH_SHAPES && rows)
+        n[rows->axis]++; /* a row that was shifted down may hold one more */
     uint32_t before = sim->now.count;
     for (uint32_t c = 0; !st && c < n[2]; c++)
         for (uint32_t b = 0; !st && b < n[1]; b++)
@@ -313,10 +314,13 @@ static sph_status fill(sph_sim *sim, const char *call, uint32_t set, const doubl
                 const uint32_t i[3] = {a, b, c};
                 double x[SPH_DIM], rel[SPH_DIM];
                 for (int k = 0; k < SPH_DIM; k++) {
-                    x[k] = lo[k] + (i[k] + 0.5) * dx;
-                    rel[k] = (lo[k] - sim->cfg.lo[k]) + (i[k] + 0.5) * dx;
+                    double off = 0.5;
+                    if (SPH_WITH_SHAPES && rows && (uint32_t)k == rows->axis)
+                        off = rows->offset[(a + b + c - i[k]) & 1];
+                    x[k] = lo[k] + (i[k] + off) * dx;
+                    rel[k] = (lo[k] - sim->cfg.lo[k]) + (i[k] + off) * dx;
                 }
-                if (!inside || inside(shape, x))
+                if (!SPH_WITH_SHAPES || !inside || inside(shape, x))
                     st = sph_setup_append(sim, set, rel, v, 0);
             }
     return sph_setup_end_adding(sim, before, st);
@@ -326,75 +330,8 @@ sph_status sph_add_box(sph_sim *sim, uint32_t set, const double *lo, const doubl
 {
     if (!lo || !hi)
         return sph_setup_bad(sim, "lo, hi", "the corners of a box", 0);
-    return fill(sim, "sph_add_box", set, lo, hi, v, NULL, NULL);
+    return sph_setup_fill(sim, "sph_add_box", set, lo, hi, NULL, v, NULL, NULL);
 }
-
-#if SPH_WITH_SHAPES
-typedef struct ring {
-    double centre[SPH_DIM], inner2, outer2;
-} ring;
-static bool in_ring(const void *shape, const double *x)
-{
-    const ring *r = shape;
-    double d2 = 0;
-    for (int k = 0; k < SPH_DIM; k++)
-        d2 += (x[k] - r->centre[k]) * (x[k] - r->centre[k]);
-    return d2 >= r->inner2 && d2 < r->outer2;
-}
-sph_status sph_add_ring(sph_sim *sim, uint32_t set, const double *centre, double inner, double outer, const double *v)
-{
-    if (!sim || !centre)
-        return sph_setup_bad(sim, "centre", "a position", 0);
-    if (!(inner >= 0) || !(outer > inner) || !(outer < 1e15))
-        return sph_setup_bad(sim, "outer", "finite and > inner >= 0", outer);
-    ring r;
-    double lo[SPH_DIM], hi[SPH_DIM];
-    r.inner2 = inner * inner;
-    r.outer2 = outer * outer;
-    /* the centre falls on a lattice point's corner, so that the shape keeps its symmetries */
-    double reach = sph_setup_round_up(outer / sim->cfg.spacing) * sim->cfg.spacing;
-    for (int k = 0; k < SPH_DIM; k++) {
-        r.centre[k] = centre[k];
-        lo[k] = centre[k] - reach;
-        hi[k] = centre[k] + reach;
-    }
-    return fill(sim, "sph_add_ring", set, lo, hi, v, in_ring, &r);
-}
-
-#if SPH_DIM == 2
-typedef struct polygon {
-    const double (*corner)[2];
-    uint32_t n;
-} polygon;
-static bool in_polygon(const void *shape, const double *x)
-{
-    const polygon *p = shape;
-    bool in = false;
-    for (uint32_t i = 0, j = p->n - 1; i < p->n; j = i++) {
-        const double *a = p->corner[i], *b = p->corner[j];
-        if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]) + a[0])
-            in = !in;
-    }
-    return in;
-}
-sph_status sph_add_polygon(sph_sim *sim, uint32_t set, const double (*corner)[2], uint32_t n, const double *v)
-{
-    if (!corner || n < 3)
-        return sph_setup_bad(sim, "corner", "at least three corners", n);
-    double lo[2] = {corner[0][0], corner[0][1]}, hi[2] = {lo[0], lo[1]};
-    for (uint32_t i = 0; i < n; i++)
-        for (int k = 0; k < 2; k++) {
-            if (!(sph_abs(corner[i][k]) < 1e15))
-                return sph_setup_bad(sim, "corner", "finite", corner[i][k]);
-            lo[k] = corner[i][k] < lo[k] ? corner[i][k] : lo[k];
-            hi[k] = corner[i][k] > hi[k] ? corner[i][k] : hi[k];
-        }
-    polygon p = {corner, n};
-    return fill(sim, "sph_add_polygon", set, lo, hi, v, in_polygon, &p);
-}
-#endif
-
-#endif
 
 #if SPH_WITH_FIELDS
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx)

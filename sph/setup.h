@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* setup.h: what setup.c and layers.c share: adding particles to a simulation that is not in the middle of a step. */
+/* setup.h: what setup.c, shapes.c, layers.c share: adding particles to a simulation that is not in the middle of a step. */
 #ifndef SPH_SETUP_H
 #define SPH_SETUP_H
 
@@ -38,6 +38,16 @@ sph_pos sph_setup_to_quanta(const sph_sim *sim, double x);
 /* lattice intervals in a length, at least one; 0 if there are absurdly many */
 #define sph_setup_intervals SPH_NAME(setup_intervals_)
 uint32_t sph_setup_intervals(double length, double dx);
+/* rows along an axis, at these offsets (spacings) from the low corner: even, odd sums of the other axes' numbers */
+typedef struct sph_rows {
+    uint32_t axis;
+    double offset[2];
+} sph_rows;
+typedef bool (*sph_inside)(const void *shape, const double *x);
+/* appends the lattice points of a box for which inside(shape, x) holds; rows, v and inside may be null; all or nothing */
+#define sph_setup_fill SPH_NAME(setup_fill_)
+sph_status sph_setup_fill(sph_sim *sim, const char *call, uint32_t set, const double *lo, const double *hi,
+                          const sph_rows *rows, const double *v, sph_inside inside, const void *shape);
 #define sph_setup_round_up SPH_NAME(setup_round_up_)
 uint32_t sph_setup_round_up(double x);
 

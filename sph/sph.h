@@ -449,6 +449,44 @@ sph_status sph_add_ring(sph_sim *sim, uint32_t set, const double *centre, double
 sph_status sph_add_polygon(sph_sim *sim, uint32_t set, const double (*corner)[2], uint32_t n, const double *v);
 #endif
 
+/* Lattices, each of one particle to dx^DIM. SQUARE: one in the middle of every cell of edge dx. SHIFTED_X: rows along x,
+   every second one shifted by dx/2 along x; SHIFTED_Y: columns along y, every second one shifted by dx/2 along y (face centred,
+   Gray 2001 section 5.6.5). In 3-D the rows are numbered along both other axes and shifted where the two numbers add up to
+   an odd one: every layer is as in 2-D, every second layer begins with the other row, and the cell of dx by 2 dx by 2 dx
+   has a particle at its corners and in the middle of its faces. SHIFTED_Z: the same along z, 3-D only. Neighbours are then
+   two at dx and four (3-D: eight) at 1.118 dx, on the square lattice four (six) at dx. In 1-D there is SQUARE only. */
+enum { SPH_LATTICE_SQUARE, SPH_LATTICE_SHIFTED_X, SPH_LATTICE_SHIFTED_Y, SPH_LATTICE_SHIFTED_Z, SPH_LATTICES };
+
+/* The points with sum over the axes of ((x - centre)/radius)^2 < 1: an ellipse, ellipsoid, in 1-D an interval. Radii are
+   > 0; an infinite one makes a cylinder along that axis. */
+typedef struct sph_ellipse {
+    double centre[SPH_DIM], radius[SPH_DIM]; /* m */
+} sph_ellipse;
+
+/* A particle stands in a shape if its centre does: in the box lo .. hi, in the outline (not on its rim), and in none of the
+   holes (on their rims it stands). To 1e-9 of a radius or spacing counts as on it, so that no rounding spoils a symmetry.
+     ring     .outline = &outer, .hole = &inner, .holes = 1     disc     .outline = &rim
+     plate    .lo, .hi                                          holes    .hole = ellipses, .holes = how many
+     3-D      a cylinder or a hole right through has an infinite radius along its axis; lo, hi give its ends
+   Where the lattice stands: along an axis where the outline has a finite radius, symmetric about the outline's centre;
+   there lo, hi may be left equal, or else cut the outline. Along any other axis, half a spacing inside lo, as with
+   sph_add_box. If shifted: in a box, rows begin a quarter and three quarters of a spacing inside lo, so that all hold
+   equally many; an outline has a row through its centre, so that the shape mirrors in every axis (and has particles on
+   those mirror planes: it cannot be cut there to be completed by SPH_SYMMETRY; on the square lattice it can).
+   Periodic: a box from face to face has no seam if it is a whole number of spacings long on every axis and, when
+   shifted, an even number on every periodic axis across the rows. */
+typedef struct sph_shape {
+    double lo[SPH_DIM], hi[SPH_DIM]; /* m */
+    const sph_ellipse *outline;      /* null: the whole box */
+    const sph_ellipse *hole;         /* so many: */
+    uint32_t holes;                  /* 0 .. 4096 */
+    uint32_t lattice;                /* SPH_LATTICE_... */
+    double velocity[SPH_DIM];        /* m/s */
+} sph_shape;
+/* Fills a shape with particles of a set. All or nothing, near the domain as above; a shape that holds none is refused. */
+#define sph_add_shape SPH_NAME(add_shape)
+sph_status sph_add_shape(sph_sim *sim, uint32_t set, const sph_shape *shape);
+
 /* Sets velocity and density of a particle between steps by a function of its position: an initial field. All or nothing. */
 typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho);
 #define sph_apply_field SPH_NAME(apply_field)

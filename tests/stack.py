@@ -27,7 +27,7 @@ CALLS = [
     (r"\.parallel\(", ["run_job"]),  # the host's own frames are its own
     (r"\.motion\(", ["motion_table"]),
     (r"->(sink|source)\(|\.stage_log\(|->stage_log\(|body_force\(|\.fault\(|\bfn\(", [HOST]),
-    (r"\binside\(|->inside\(", ["in_ring", "in_polygon"]),
+    (r"\binside\(|->inside\(", ["in_shape", "in_polygon"]),
 ]
 
 

@@ -415,6 +415,50 @@ static void row_add_polygon(void)
 }
 #endif
 
+static void row_add_shape(void)
+{
+    sph_ellipse rim, hole;
+    for (int k = 0; k < SPH_DIM; k++)
+        rim.centre[k] = hole.centre[k] = 0.5, rim.radius[k] = 0.4, hole.radius[k] = 0.1;
+    const sph_shape ring = {.outline = &rim, .hole = &hole, .holes = 1};
+    sph_shape box = {.hole = &hole, .holes = 1};
+    box.hi[0] = 1;
+    for (int k = 1; k < SPH_DIM; k++)
+        box.hi[k] = 0.5;
+    no_sim(sph_add_shape(NULL, 0, &box));
+    refused(sph_add_shape(bed.sim, 0, NULL));
+    EACH_WORD(w) {
+        if_adding(sph_add_shape(bed.sim, w, &ring), SETS && !w ? SPH_OK : SPH_BAD_ARGUMENT);
+        sph_shape s = box;
+        s.lattice = w;
+        if (w == 0 || (SPH_DIM > 1 && w <= SPH_DIM))
+            if_adding(sph_add_shape(bed.sim, 0, &s), SETS ? SPH_OK : SPH_BAD_ARGUMENT);
+        else
+            refused(sph_add_shape(bed.sim, 0, &s));
+        s = box;
+        s.hole = NULL;
+        s.holes = w;
+        if (w)
+            refused(sph_add_shape(bed.sim, 0, &s));
+        else
+            if_adding(sph_add_shape(bed.sim, 0, &s), SETS ? SPH_OK : SPH_BAD_ARGUMENT);
+    }
+    EACH_NUMBER(x)
+        for (int k = 0; k < SPH_DIM; k++) {
+            double *const place[] = {box.lo, box.hi, box.velocity, hole.centre, hole.radius, rim.centre, rim.radius};
+            for (int p = 0; p < 7; p++) {
+                const double good = place[p][k];
+                const bool radius = place[p] == hole.radius || place[p] == rim.radius;
+                const sph_shape *const s = p < 5 ? &box : &ring;
+                place[p][k] = x;
+                attempt(sph_add_shape(bed.sim, 0, s));
+                if (radius ? !(x > 0) : !(x > -1e15 && x < 1e15))
+                    refused(sph_add_shape(bed.sim, 0, s));
+                place[p][k] = good;
+            }
+        }
+}
+
 /* spoils one number of the last particles that it is called for */
 static struct {
     uint32_t calls, from, place;
@@ -823,9 +867,9 @@ static const row rows[] = {
 #if SPH_DIM == 3
     ROW(add_wall_plane),
 #endif
-    ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(wall_default), ROW(add_wall_box), ROW(remove_wall),
-    ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel), ROW(get_step), ROW(time),
-    ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge), ROW(extent), ROW(kernel_value),
+    ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(wall_default), ROW(add_wall_box),
+    ROW(remove_wall), ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel),
+    ROW(get_step), ROW(time), ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge), ROW(extent), ROW(kernel_value),
     ROW(kernel_support), ROW(hash), ROW(dump), ROW(restore),
 };
 

@@ -24,6 +24,28 @@ static void add_set(world *w)
     attempt(w, sph_add_fluid(w->sim, how ? &f : NULL, &set));
 }
 
+/* a box or an ellipse with up to two holes on any lattice; now and then with a number of any kind */
+static void add_with_holes(world *w, uint32_t set, const double *lo, const double *hi, const double *speed)
+{
+    sph_ellipse e[3];
+    sph_shape s = {.hole = e + 1};
+    const uint32_t how = (uint32_t)take(&w->in, 1);
+    for (int i = 0; i < 3; i++) {
+        take_point(&w->in, e[i].centre, 1);
+        for (int k = 0; k < SPH_DIM; k++)
+            e[i].radius[k] = how & 4 ? take_any(&w->in) : take_near(&w->in, 0.4);
+    }
+    for (int k = 0; k < SPH_DIM; k++) {
+        s.lo[k] = how & 8 ? 0 : lo[k];
+        s.hi[k] = how & 8 ? 0 : hi[k];
+        s.velocity[k] = speed ? speed[k] : 0;
+    }
+    s.outline = how & 16 ? e : NULL;
+    s.lattice = how >> 5 & 7;
+    s.holes = how % 4 < 3 ? how % 4 : 0;
+    attempt(w, sph_add_shape(w->sim, set, &s));
+}
+
 static void add_shape(world *w, uint32_t shape)
 {
     double a[SPH_DIM], b[SPH_DIM], v[SPH_DIM];
@@ -39,6 +61,8 @@ static void add_shape(world *w, uint32_t shape)
         attempt(w, sph_add_box(w->sim, set, a, b, speed));
     else
         attempt(w, sph_add_ring(w->sim, set, a, take_near(&w->in, 0.3), take_near(&w->in, 0.6), speed));
+    if (how & 8)
+        add_with_holes(w, set, a, b, speed);
 #if SPH_DIM == 2
     if (how & 4) {
         double corner[5][2];
