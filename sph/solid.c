@@ -219,45 +219,94 @@ static bool solid_home(const sph_sim *sim, const sph_set *s)
 enum { SUM_FAR = SPH_NL };
 
 /* adds the tile's part of M to a home's sums, and the longest bond (m^2) of reference neighbours */
-static void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, bool total, bool wall)
+SPH_INLINE void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t kernel, bool weak, bool total, bool wall)
 {
     const sph_tile *c = wall ? &t->ghost : &t->fluid;
-    const uint32_t kernel = sim->cfg.kernel;
-    const bool weak = sph_weak_scheme(sim->cfg.scheme);
     const vreal inv_h = v_set(sim->fac.inv_h);
-    for (uint32_t j = 0; j < c->n; j += SPH_W) {
-        const uint32_t lane = j % SPH_LANES;
-        vreal dx[SPH_DIM], kx[SPH_DIM], k2 = v_set(0), x2 = v_set(0);
-        vint same = v_set_int(0);
-        if (total && !wall)
-            same = v_less(v_set((sph_real)0.5), v_set(t->solid_home.body[h])) & v_equal(v_set(t->solid_home.body[h]), v_load(t->solid.body + j));
-        for (int k = 0; k < SPH_DIM; k++) {
-            kx[k] = dx[k] = v_set(t->home.x[k][h]) - v_load(c->x[k] + j);
-            if (total && !wall)
-                kx[k] = v_select(same, v_set(t->solid_home.k[k][h]) - v_load(t->solid.k[k] + j), dx[k]);
-            k2 = k2 + kx[k] * kx[k];
-            x2 = x2 + dx[k] * dx[k];
-        }
-        const vreal q = v_sqrt(k2) * inv_h;
-        vreal mg = k_slope(kernel, q) * v_load(c->m + j);
-        if (weak)
-            mg = mg * v_load(c->iv + j);
-        for (int k = 0; k < SPH_DIM; k++)
-            for (int l = 0; l < SPH_DIM; l++) {
-                sph_real *sum = t->sum[k * SPH_DIM + l][h] + lane;
-                v_store(sum, v_load(sum) + mg * dx[k] * kx[l]);
-            }
-        if (total && !wall) {
-            sph_real *sum = t->sum[SUM_FAR][h] + lane;
-            v_store(sum, v_max(v_load(sum), v_where(same & v_less(q, v_set(sim->fac.reach)), x2)));
-        }
+    vreal s[SPH_NL + 1][SPH_NV], x[SPH_DIM], k[SPH_DIM];
+    const vreal body = v_set(total ? t->solid_home.body[h] : 0);
+    const int used = total ? SPH_NL + 1 : SPH_NL;
+    SPH_UNROLL
+    for (int a = 0; a < SPH_DIM; a++) {
+        x[a] = v_set(t->home.x[a][h]);
+        k[a] = v_set(total ? t->solid_home.k[a][h] : 0);
     }
+    for (int a = 0; a < used; a++)
+        SPH_UNROLL
+        for (int v = 0; v < SPH_NV; v++)
+            s[a][v] = v_load(t->sum[a][h] + v * SPH_W);
+    for (uint32_t from = 0; from < c->n; from += SPH_LANES)
+        SPH_UNROLL
+        for (uint32_t v = 0; v < SPH_NV; v++) {
+            const uint32_t j = from + v * SPH_W;
+            vreal dx[SPH_DIM], kx[SPH_DIM], k2 = v_set(0), x2 = v_set(0);
+            vint same = v_set_int(0);
+            if (total && !wall)
+                same = v_less(v_set((sph_real)0.5), body) & v_equal(body, v_load(t->solid.body + j));
+            SPH_UNROLL
+            for (int a = 0; a < SPH_DIM; a++) {
+                kx[a] = dx[a] = x[a] - v_load(c->x[a] + j);
+                if (total && !wall)
+                    kx[a] = v_select(same, k[a] - v_load(t->solid.k[a] + j), dx[a]);
+                k2 = k2 + kx[a] * kx[a];
+                x2 = x2 + dx[a] * dx[a];
+            }
+            const vreal q = v_sqrt(k2) * inv_h;
+            vreal mg = k_slope(kernel, q) * v_load(c->m + j);
+            if (weak)
+                mg = mg * v_load(c->iv + j);
+            SPH_UNROLL
+            for (int a = 0; a < SPH_DIM; a++)
+                SPH_UNROLL
+                for (int b = 0; b < SPH_DIM; b++)
+                    s[a * SPH_DIM + b][v] = s[a * SPH_DIM + b][v] + mg * dx[a] * kx[b];
+            if (total && !wall)
+                s[SUM_FAR][v] = v_max(s[SUM_FAR][v], v_where(same & v_less(q, v_set(sim->fac.reach)), x2));
+        }
+    for (int a = 0; a < used; a++)
+        SPH_UNROLL
+        for (int v = 0; v < SPH_NV; v++)
+            v_store(t->sum[a][h] + v * SPH_W, s[a][v]);
 }
+
+static __attribute__((noinline)) void correction_any(const sph_sim *sim, sph_thread *t, uint32_t homes, bool wall)
+{
+    const sph_config *c = &sim->cfg;
+    for (uint32_t h = 0; h < homes; h++)
+        correction_home(sim, t, h, c->kernel, sph_weak_scheme(c->scheme), sph_is_total(c), SPH_HAS_LAYERED_WALLS && wall);
+}
+
+#if SPH_WITH_FAST_PATHS
+/* the same text compiled with the choices as constants, as in fluid.c */
+#define SPH_FAST_LIST(X)                                                                                    \
+    X(cubic, SPH_CUBIC, false)                                                                              \
+    X(cubic_t, SPH_CUBIC, SPH_HAS_TOTAL)                                                                    \
+    X(w2, SPH_WENDLAND_C2, false)                                                                           \
+    X(w2_t, SPH_WENDLAND_C2, SPH_HAS_TOTAL)
+#define SPH_FAST_FN(name, kernel_, total_)                                                                  \
+    static __attribute__((noinline)) void correction_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)  \
+    {                                                                                                       \
+        for (uint32_t h = 0; h < homes; h++)                                                                \
+            correction_home(sim, t, h, kernel_, false, total_, false);                                      \
+    }
+SPH_FAST_LIST(SPH_FAST_FN)
+#undef SPH_FAST_FN
+#endif
 
 static void correction_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    for (uint32_t h = 0; h < homes; h++)
-        correction_home(sim, t, h, sph_is_total(&sim->cfg), role == SPH_ROLE_GHOST);
+#if SPH_WITH_FAST_PATHS
+    const sph_config *c = &sim->cfg;
+#define SPH_FAST_TRY(name, k, whole)                                                                        \
+    if (role == SPH_ROLE_FLUID && c->kernel == (k) && SPH_IS(c->scheme, STANDARD) && sph_is_total(c) == (whole)) {  \
+        correction_##name(sim, t, homes);                                                                   \
+        return;                                                                                             \
+    }
+    SPH_FAST_LIST(SPH_FAST_TRY)
+#undef SPH_FAST_TRY
+#undef SPH_FAST_LIST
+#endif
+    correction_any(sim, t, homes, role == SPH_ROLE_GHOST);
 }
 
 /* inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same trace */
