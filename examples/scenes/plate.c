@@ -12,7 +12,7 @@ enum { THICK = SOLID_COMMON, LENGTH, SPEED, ACROSS, CLAMP, STRETCH, CYCLES, PARA
 enum { IDEAL, SURFACES };
 
 static const scene_param param[PARAMS] = {
-    SOLID_PARAMS(SPH_WENDLAND_C2, 1.2, 0, 0, SPH_KICK_DRIFT_KICK, 0.5, SPH_TOTAL, SPH_PRINCIPAL, 0.22, 0),
+    SOLID_PARAMS(SPH_WENDLAND_C2, 0.8, 0, 0, SPH_KICK_DRIFT_KICK, 0.7, SPH_TOTAL, SPH_PRINCIPAL, 0.22, 0),
     {"thick", "cm", "thickness H", 2, 0.01, 100, SCENE_NUMBER},
     {"length", "cm", "free length", 20, 0.1, 1000, SCENE_NUMBER},
     {"speed", "c0", "velocity of the free end at the start, V_f", 0.01, -1, 1, SCENE_NUMBER},
