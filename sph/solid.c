@@ -260,20 +260,23 @@ static void correction_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, u
         correction_home(sim, t, h, sph_is_total(&sim->cfg), role == SPH_ROLE_GHOST);
 }
 
-/* inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same trace */
+/* inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same norm (not the
+   trace: where the body has turned since the reference position, M has turned on one side) */
 static bool invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM])
 {
     sph_real det, mean = 0;
-    for (int k = 0; k < SPH_DIM; k++)
-        mean += m[k][k] / SPH_DIM;
+    for (int k = 0; k < SPH_NL; k++)
+        mean += m[k / SPH_DIM][k % SPH_DIM] * m[k / SPH_DIM][k % SPH_DIM];
+    mean = SPH_SQRT(mean / SPH_DIM);
 #if SPH_DIM == 1
     det = m[0][0];
-    const bool fine = mean > 0;
+    const bool fine = det > 0;
+    (void)mean;
     inv[0][0] = 1 / (fine ? det : 1);
     return fine;
 #elif SPH_DIM == 2
     det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    if (!(mean > 0 && det > (sph_real)1e-3 * (mean * mean)))
+    if (!(det > (sph_real)1e-3 * (mean * mean)))
         return false;
     inv[0][0] = m[1][1] / det;
     inv[1][1] = m[0][0] / det;
@@ -288,7 +291,7 @@ static bool invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM])
             co[k][l] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
         }
     det = m[0][0] * co[0][0] + m[0][1] * co[0][1] + m[0][2] * co[0][2];
-    if (!(mean > 0 && det > (sph_real)1e-3 * (mean * mean * mean)))
+    if (!(det > (sph_real)1e-3 * (mean * mean * mean)))
         return false;
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
