@@ -192,10 +192,11 @@ static void column(const elastic_state *e, uint32_t lattice, double h, const dou
 static void waves_follow_from_the_forces(void **state)
 {
     static const elastic_state states[] = {
-        {.rho = 1.5, .c = 1, .mu = 0.22, .pressure = -0.05, .s = {0.02, -0.01}, .epsilon = 0.3, .n = 4}, /* tension both ways */
-        {.rho = 1.5, .c = 1, .mu = 0.22, .pressure = 0.02, .s = {0.07, -0.05}, .epsilon = 0.3, .n = 4},  /* in x only */
-        {.rho = 1.5, .c = 1, .mu = 0.22, .pressure = 0.1, .s = {0.03, -0.04}, .epsilon = 0.3, .n = 4},   /* nowhere */
-        {.rho = 1, .c = 2, .mu = 3, .pressure = -0.2, .epsilon = 0.3, .n = 2},                           /* equal stresses */
+        /* tension both ways, in x only, nowhere, equal stresses */
+        {.rho = 1.5, .c = 1, .mu = 0.22, .pressure = -0.05, .s = {0.02, -0.01}, .epsilon = 0.3, .n = 4},
+        {.rho = 1.5, .c = 1, .mu = 0.22, .pressure = 0.02, .s = {0.07, -0.05}, .epsilon = 0.3, .n = 4},
+        {.rho = 1.5, .c = 1, .mu = 0.22, .pressure = 0.1, .s = {0.03, -0.04}, .epsilon = 0.3, .n = 4},
+        {.rho = 1, .c = 2, .mu = 3, .pressure = -0.2, .epsilon = 0.3, .n = 2},
     };
     static const int waves[][2] = {{1, 0}, {1, 2}, {3, 1}, {5, 4}, {0, 3}};
     double worst = 0;

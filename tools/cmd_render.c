@@ -102,14 +102,14 @@ static bool make_scene(scene *s, const options *o, const dump_file *d)
     s->dot = host_alloc(d->n * sizeof *s->dot);
     for (uint32_t i = 0; i < d->n; i++) {
         const uint32_t role = dump_role(d, i);
-        if (role == DUMP_GONE || (role != DUMP_FLUID && !o->walls))
+        if (role == DUMP_GONE || (dump_is_wall(role) && !o->walls))
             continue;
         for (uint32_t k = 0; k < d->dim; k++)
             x[k] = dump_x(d, i, k);
         if (d->dim == 3 && !in_slice(o, x))
             continue;
         dot *t = &s->dot[s->n++];
-        *t = (dot){0, 0, 0, value[i], role != DUMP_FLUID};
+        *t = (dot){0, 0, 0, value[i], dump_is_wall(role)};
         project(o, x, d->dim, t);
     }
     free(value);
