@@ -24,7 +24,7 @@ typedef struct synth {
         uint32_t role;
         double rho0, c0, mass;
     } set[SYNTH_SETS];
-    bool with_damage, with_stress, with_plastic;
+    bool with_damage, with_stress, with_plastic, wrong_shape;
     struct {
         double x[3], v[3], rho, stress[5], plastic, damage; /* rho: relative excess; damage: D^(1/dim) */
         uint8_t set;
@@ -177,7 +177,7 @@ static void put_arrays(const synth *s)
     put_reals(s, "vel", s->dim, MEMBER(v));
     put_reals(s, "rho", 1, MEMBER(rho));
     if (s->with_stress)
-        put_reals(s, "stress", 2 * s->dim - 1, MEMBER(stress));
+        put_reals(s, "stress", s->wrong_shape ? 5 - s->dim : 2 * s->dim - 1, MEMBER(stress));
     if (s->with_plastic)
         put_reals(s, "plastic", 1, MEMBER(plastic));
     if (s->with_damage)
