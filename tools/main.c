@@ -21,6 +21,7 @@ static const struct command {
     {"render", "a dump as a picture", cmd_render},
     {"history", "tables and figures from histories", cmd_history},
     {"dispersion", "waves on a lattice of particles against exact ones", cmd_dispersion},
+    {"profile", "fields of a dump along a line or an ellipse", cmd_profile},
     {"fragments", "the pieces into which solids have broken", cmd_fragments},
     {"gradykipp", "sizes of fragments by Grady and Kipp's statistics", cmd_gradykipp},
 };
