@@ -49,7 +49,8 @@ static double cell(const table *t, uint32_t row, const char *name)
     return table_at(t, row, (uint32_t)c);
 }
 
-/* a block from 0.2 on of edges 2, 1, 0.5 in cells of dx, moved at random by up to a third; linear velocities, constant damage */
+/* a block from 0.2 on of edges 2, 1, 0.5 in cells of dx, moved at random by up to a third; linear velocities, constant
+   damage */
 static synth *block(uint32_t dim, double dx)
 {
     const double lo[3] = {0.2, 0.2, 0.2}, hi[3] = {2.2, dim > 1 ? 1.2 : 0, dim > 2 ? 0.7 : 0};

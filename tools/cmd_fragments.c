@@ -15,7 +15,7 @@ static const char help[] =
     "usage: sph fragments DUMP... [damage=0.5] [link=1.5] [across=no|yes] [least=1] [by=length|diameter]\n"
     "                             [bins=10] [k= m= c= rate=] [out=NAME.csv] [histogram=NAME.csv]\n"
     "Pieces of the solid sets: particles of damage D below a threshold, linked when closer than link spacings.\n"
-    "  damage=0.5     a particle above it bears less than half of its tension and counts as broken: it is part of no piece.\n"
+    "  damage=0.5     a particle above it bears less than half of its tension and counts as broken, part of no piece.\n"
     "                 The number of pieces at other thresholds is printed too; where it varies, look at a picture\n"
     "  link=1.5       in spacings; 1.5 links diagonal neighbours of a square lattice, which still pull at each other, and\n"
     "                 not across a row of broken particles. Material stretched by more than 6 % without damage needs more\n"

@@ -23,8 +23,8 @@ static const char help[] =
     "  reference=DUMP an earlier dump of the same run: particles are taken where they were then (by id), so that a line\n"
     "                 of the body is followed; displacement is from there\n"
     "  within=1.5     distance in spacings from the curve, for the largest and smallest value of a particle near it\n"
-    "  out=           else to standard output: time, place, fields, how many particles, order used. Places with no particle\n"
-    "                 within reach are left out. With out= the extremes are printed\n";
+    "  out=           else to standard output: time, place, fields, how many particles, order used. Places without\n"
+    "                 a particle within reach are left out. With out= the extremes are printed\n";
 
 typedef struct options {
     const char *field[SAMPLE_FIELDS], *out, *reference;
@@ -260,7 +260,7 @@ static bool put_profile(FILE *f, const options *o, const cloud *c, const char *n
     for (uint32_t k = 0; k < o->fields; k++)
         s.field[k] = c->field[k];
     double *kept = host_alloc(o->n * o->fields * sizeof *kept), (*where)[3] = host_alloc(o->n * sizeof *where);
-    double x[3], before[3], angle, along = 0, value[SAMPLE_FIELDS];
+    double x[3] = {0, 0, 0}, before[3] = {0, 0, 0}, angle, along = 0, value[SAMPLE_FIELDS];
     uint64_t samples = 0;
     for (uint64_t i = 0; i < o->n; i++) {
         uint32_t order;
@@ -284,8 +284,8 @@ static bool put_profile(FILE *f, const options *o, const cloud *c, const char *n
     if (o->out)
         print_extremes(o, c, name, kept, (const double (*)[3])where, samples);
     if (o->out && samples < o->n)
-        printf("  %llu of %llu places have no particle within reach and were left out\n", (unsigned long long)(o->n - samples),
-               (unsigned long long)o->n);
+        printf("  %llu of %llu places have no particle within reach and were left out\n",
+               (unsigned long long)(o->n - samples), (unsigned long long)o->n);
     free(kept);
     free(where);
     near_close(&g);

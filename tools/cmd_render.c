@@ -417,7 +417,8 @@ static bool parse_options(int argc, char **argv, options *o)
 {
     static const char *const yes_no[] = {"no", "yes", NULL}, *const palettes[] = {"even", "signed", NULL};
     const char *t;
-    *o = (options){.field = "speed", .palette = BY_FIELD, .width = 960, .height = 640, .walls = true, .azimuth = 30, .elevation = 20};
+    *o = (options){.field = "speed", .palette = BY_FIELD, .width = 960, .height = 640,
+                   .walls = true, .azimuth = 30, .elevation = 20};
     if ((t = host_option(argc, argv, "field")))
         o->field = t;
     if ((t = host_option(argc, argv, "walls"))) {
