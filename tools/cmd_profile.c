@@ -202,7 +202,7 @@ static bool is_near(const options *o, const cloud *c, uint32_t j)
 
 static void print_place(const cloud *c, const double x[3])
 {
-    for (uint32_t k = 0; k < c->dim; k++)
+    for (uint32_t k = 0; k < c->dim && k < 3; k++)
         printf("%s%.6g", k ? ", " : " at ", x[k]);
 }
 
@@ -260,7 +260,7 @@ static bool put_profile(FILE *f, const options *o, const cloud *c, const char *n
     for (uint32_t k = 0; k < o->fields; k++)
         s.field[k] = c->field[k];
     double *kept = host_alloc(o->n * o->fields * sizeof *kept), (*where)[3] = host_alloc(o->n * sizeof *where);
-    double x[3] = {0, 0, 0}, before[3] = {0, 0, 0}, angle, along = 0, value[SAMPLE_FIELDS];
+    double x[3], before[3] = {0, 0, 0}, angle, along = 0, value[SAMPLE_FIELDS];
     uint64_t samples = 0;
     for (uint64_t i = 0; i < o->n; i++) {
         uint32_t order;
@@ -273,7 +273,7 @@ static bool put_profile(FILE *f, const options *o, const cloud *c, const char *n
         fprintf(f, "%.12g,%.12g", c->time, along);
         if (o->ellipse_text)
             fprintf(f, ",%.12g", angle);
-        for (uint32_t k = 0; k < c->dim; k++)
+        for (uint32_t k = 0; k < c->dim && k < 3; k++)
             fprintf(f, ",%.12g", x[k]);
         for (uint32_t k = 0; k < o->fields; k++)
             fprintf(f, ",%.12g", value[k]);
