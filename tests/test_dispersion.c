@@ -20,7 +20,7 @@ static double cell(const table *t, uint32_t row, const char *name)
 }
 
 /* The thesis cut digits off instead of rounding in B.3 and B.5, so a figure may be 1e-4 off. Its F columns
-   are right where every neighbour that matters is within h, and give those between h and 2h up to a third too little: F is
+   are right where every neighbour that matters is within h, and give those between h and 2h up to 40 % too little: F is
    held against the columns that were recomputed. */
 static void the_tables_are_those_printed(void **state)
 {
@@ -48,7 +48,8 @@ static void the_tables_are_those_printed(void **state)
         }
         table_close(&t);
     }
-    print_message("dispersion: tables B.3 to B.5 within %.1e; printed F, low for neighbours beyond h, within %.1e\n", worst, cut);
+    print_message("dispersion: tables B.3 to B.5 within %.1e; printed F, low for neighbours beyond h, within %.1e\n", worst,
+                  cut);
 }
 
 /* Gray 5.72; his F counts the nearest neighbours, the diagonal ones add what stands behind the plus */
