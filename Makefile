@@ -152,17 +152,12 @@ builds_test_eos_schemes := $(BUILDS)
 builds_test_time    := 1f 1d 2d
 builds_test_scenes  := $(BUILDS)
 builds_test_shapes  := $(BUILDS)
-# of the commands of the tool: one build
-builds_test_dispersion := 2d
-builds_test_gradykipp := 2d
-builds_test_fragments := 2d
-builds_test_fields := 2d
-builds_test_profile := 2d
+# of commands of the tool, linked with those that need no scene: one build
+TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile
+$(foreach t,$(TOOL_TESTS),$(eval builds_$(t) := 2d))
 builds_of = $(or $(builds_$(1)),2f 2d)
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
 
-# tests of commands are linked with the commands that need no scene
-TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile
 command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o cmd_list.o),$(tools_obj))
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
 
