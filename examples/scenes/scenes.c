@@ -12,9 +12,14 @@ const scene *const scene_table[] = {&scene_hydrostatic, NULL};
 #define scene_standing_wave SPH_NAME(scene_standing_wave)
 #define scene_taylor_green SPH_NAME(scene_taylor_green)
 #define scene_elliptical_drop SPH_NAME(scene_elliptical_drop)
+#define scene_rings SPH_NAME(scene_rings)
+#define scene_tension SPH_NAME(scene_tension)
+#define scene_brittle SPH_NAME(scene_brittle)
 extern const scene scene_dam_break, scene_still_tank, scene_standing_wave, scene_taylor_green, scene_elliptical_drop;
+extern const scene scene_rings, scene_tension, scene_brittle;
 const scene *const scene_table[] = {&scene_dam_break,    &scene_still_tank,      &scene_standing_wave,
-                                    &scene_taylor_green, &scene_elliptical_drop, NULL};
+                                    &scene_taylor_green, &scene_elliptical_drop, &scene_rings,
+                                    &scene_tension,      &scene_brittle,         NULL};
 #else
 #define scene_dam_break_3d SPH_NAME(scene_dam_break_3d)
 extern const scene scene_dam_break_3d;
