@@ -52,7 +52,7 @@ sph_config sph_config_default(void)
     c.gravity_factor = 0.5;
     c.stress_exponent = 4;
     c.stress_epsilon = 0.3;
-    c.max_stretch = 1.5;
+    c.max_stretch = 1.25;
     return c;
 }
 
