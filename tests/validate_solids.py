@@ -82,6 +82,9 @@ def plates(quick, add):
             lambda a, b: first_return(a) / first_return(b))
     add("G16 permanent upward set, as printed: mean of the tip's extremes after the first", "cm", (">=", 0.01), [printed],
         lambda r: 0.5 * (max(late(r)) + min(late(r))))
+    rough = dict(own, clamp="ideal", cycles=0.6, repulsion="principal", printed="yes")
+    soft, stiff = Run("plate", **{"yield": 0.06}, **rough), Run("plate", **rough)
+    add("G16 thesis's settings: first amplitude, plastic over elastic", "ratio", None, [soft, stiff], lambda a, b: swings(a)[0] / swings(b)[0])
     add("G16 permanent upward set: mean of the tip's extremes after the first", "cm", (">=", 0.01), [plastic],
         lambda r: 0.5 * (max(late(r)) + min(late(r))))
     add("G16 the same of the elastic plate", "cm", None, [elastic], lambda r: 0.5 * (max(late(r)) + min(late(r))))
