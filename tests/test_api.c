@@ -120,7 +120,7 @@ static size_t array_bytes(size_t bytes) { return ((base().max_particles + 48u) *
 
 static void a_module_that_is_not_chosen_adds_nothing_to_the_arena(void **state)
 {
-    const size_t real = array_bytes(sizeof(sph_real)), sums = (base().max_particles / 256 + 1) * 4 * sizeof(double);
+    const size_t real = array_bytes(sizeof(sph_real)), sums = (base().max_particles / 256 + 1) * 5 * sizeof(double);
     const size_t one_state = 2 * SPH_DIM * real + 2 * real + SPH_DIM * real + array_bytes(4) + array_bytes(1);
     (void)state;
     /* choices that are arithmetic only */
