@@ -130,6 +130,12 @@ static void check_span(sph_sim *sim, span s, sph_thread *t)
         for (uint32_t i = s.first; i < s.last; i++)
             if (!(b->stress[k][i] - b->stress[k][i] == 0))
                 sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)b->stress[k][i]);
+    for (uint32_t i = s.first; i < s.last && SPH_HAS_YIELD && b->plastic[0]; i++)
+        if (!(b->plastic[0][i] >= 0 && b->plastic[0][i] - b->plastic[0][i] == 0))
+            sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)b->plastic[0][i]);
+    for (uint32_t i = s.first; i < s.last && SPH_HAS_DAMAGE && b->damage[0]; i++)
+        if (!(b->damage[0][i] >= 0 && b->damage[0][i] <= 1))
+            sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)b->damage[0][i]);
 #endif
 }
 
