@@ -535,17 +535,15 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
 }
 
 #if SPH_HAS_HELD
-/* along the axes on which a set is held it feels no force; what moves it does work: force against it, and its own inertia */
+/* along the axes on which a set is held it feels no force; what moves it does work against it (and on its inertia: step.c) */
 static void hold(sph_sim *sim, const sph_set *set, uint32_t i, sph_real *acc)
 {
     const uint32_t held = sph_held(sim, set);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         if (!(held >> k & 1))
             continue;
-        const double v = sph_wall_velocity(sim, set, k);
-        const double a = sim->dt > 0 ? (v - sim->now.group[set->group].vel[k]) / sim->dt : 0;
         if (sph_keeps_books(&sim->cfg))
-            sim->power[1][i] += (sph_real)((a - (double)acc[k]) * v);
+            sim->power[1][i] -= acc[k] * (sph_real)sph_wall_velocity(sim, set, k);
         acc[k] = 0;
         if (sph_uses_xsph(&sim->cfg))
             sim->buf[sim->dst].xsph[k][i] = 0;

@@ -374,7 +374,7 @@ static void lay_out(const sph_config *c, const sph_grid *g, sph_sim *s, layout *
     if (sph_keeps_books(c)) {
         for (uint32_t k = 0; k < SPH_POWERS; k++)
             SPH_PLACE(power[k], "powers for the books", n, sizeof(sph_real));
-        SPH_PLACE(partial, "partial sums for the books", partials, SPH_POWERS * sizeof(double));
+        SPH_PLACE(partial, "partial sums for the books", partials, SPH_PARTIALS * sizeof(double));
     }
     if (s)
         s->buffers = buffers;
