@@ -12,9 +12,13 @@ const scene *const scene_table[] = {&scene_hydrostatic, NULL};
 #define scene_standing_wave SPH_NAME(scene_standing_wave)
 #define scene_taylor_green SPH_NAME(scene_taylor_green)
 #define scene_elliptical_drop SPH_NAME(scene_elliptical_drop)
-extern const scene scene_dam_break, scene_still_tank, scene_standing_wave, scene_taylor_green, scene_elliptical_drop;
+#define scene_pulse SPH_NAME(scene_pulse)
+#define scene_lattice_box SPH_NAME(scene_lattice_box)
+extern const scene scene_dam_break, scene_still_tank, scene_standing_wave, scene_taylor_green, scene_elliptical_drop, scene_pulse,
+    scene_lattice_box;
 const scene *const scene_table[] = {&scene_dam_break,    &scene_still_tank,      &scene_standing_wave,
-                                    &scene_taylor_green, &scene_elliptical_drop, NULL};
+                                    &scene_taylor_green, &scene_elliptical_drop, &scene_pulse,
+                                    &scene_lattice_box,  NULL};
 #else
 #define scene_dam_break_3d SPH_NAME(scene_dam_break_3d)
 extern const scene scene_dam_break_3d;
