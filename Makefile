@@ -152,14 +152,20 @@ builds_test_eos_schemes := $(BUILDS)
 builds_test_time    := 1f 1d 2d
 builds_test_scenes  := $(BUILDS)
 builds_test_shapes  := $(BUILDS)
+# of commands of the tool, linked with those that need no scene: one build
+TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile
+$(foreach t,$(TOOL_TESTS),$(eval builds_$(t) := 2d))
 builds_of = $(or $(builds_$(1)),2f 2d)
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
 
+command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o cmd_list.o),$(tools_obj))
+of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
+
 define test_rule
-$(BUILD)/tests/$(1)_$(2): $(BUILD)/obj/$(2)/tests/$(1).o $(port_obj) $(SCENES:%.c=$(BUILD)/obj/$(2)/%.o) $(BUILD)/libsph$(2).a
+$(BUILD)/tests/$(1)_$(2): $(BUILD)/obj/$(2)/tests/$(1).o $(call of_tool,$(1),$(command_obj)) $(port_obj) $(SCENES:%.c=$(BUILD)/obj/$(2)/%.o) $(BUILD)/libsph$(2).a
 	$$(say) link $$@
 	@mkdir -p $$(@D)
-	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(LDFLAGS) $$(THREADS) $$^ -o $$@ -lcmocka -lm
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(LDFLAGS) $$(THREADS) $$^ -o $$@ -lcmocka $(call of_tool,$(1),$(PNG_LIBS)) -lm
 endef
 $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(eval $(call test_rule,$(t),$(b)))))
 $(foreach b,$(BUILDS),$(BUILD)/obj/$(b)/tests/test_dmath.o): HOST_CFLAGS += -Itests/refdata

@@ -42,6 +42,12 @@ int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v);
 #define sph_begin_sort SPH_NAME(begin_sort_)
 void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bool table, uint32_t mode);
 
+/* step.c: the list of passes of an integrator, and that of the first forces; null at the end */
+#define sph_program_of SPH_NAME(program_of_)
+const sph_pass *const *sph_program_of(uint32_t integrator);
+#define sph_prime_program SPH_NAME(prime_program_)
+const sph_pass *const *sph_prime_program(void);
+
 #define sph_pass_force SPH_NAME(pass_force_)
 #define sph_pass_summation SPH_NAME(pass_summation_)
 #define sph_pass_shepard SPH_NAME(pass_shepard_)

@@ -9,7 +9,7 @@
    fluid.c    pair formulas of water: density, momentum, viscosity, diffusion, XSPH, filters
    solid.c    stress: rates, corrected gradients, yield; solid.h its pair formulas; damage.c flaws and damage
    walls.c    boundary forces, Adami's extrapolation, crossing, moving walls
-   step.c     integrators as lists of passes, slices, threads, time step, failure
+   step.c     integrators as lists of passes, local passes; run.c runs them: time step, slices, threads, failure
    books.c    totals, probes, gauges; hash.c state hash; dump.c dump and restore
    kernels.c  smoothing kernels; dmath.c deterministic functions; lanes.h vectors
 

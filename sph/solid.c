@@ -17,6 +17,16 @@
 
 /* ---- rates ---- */
 
+/* row and column of the components that are kept */
+static const uint8_t kept_at[SPH_NS][2] =
+#if SPH_DIM == 1
+    {{0, 0}};
+#elif SPH_DIM == 2
+    {{0, 0}, {1, 1}, {0, 1}};
+#else
+    {{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}};
+#endif
+
 /* the deviatoric stress of one particle as a full tensor; in 2-D and 1-D of the plane or line only */
 static void tensor_of(const sph_buffer *b, uint32_t i, sph_real (*s)[SPH_DIM])
 {
@@ -34,11 +44,50 @@ static void tensor_of(const sph_buffer *b, uint32_t i, sph_real (*s)[SPH_DIM])
             s[k][l] = full[sph_sym[k][l]];
 }
 
+/* dS/dt of a stress in a velocity gradient */
+static void jaumann(const sph_real (*l)[SPH_DIM], const sph_real (*s)[SPH_DIM], sph_real mu, sph_real (*rate)[SPH_DIM])
+{
+    sph_real trace = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        trace += l[k][k];
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = k; c < SPH_DIM; c++) {
+            sph_real turn = 0; /* (W S - S W)_kc; S is symmetric, W antisymmetric */
+            for (uint32_t m = 0; m < SPH_DIM; m++)
+                turn += (sph_real)0.5 * ((l[k][m] - l[m][k]) * s[m][c] + (l[c][m] - l[m][c]) * s[m][k]);
+            const sph_real e = (sph_real)0.5 * (l[k][c] + l[c][k]) - (k == c ? trace / 3 : 0);
+            rate[k][c] = rate[c][k] = 2 * mu * e + turn;
+        }
+}
+
+#if SPH_HAS_RATES_FIRST
+/* Kick-drift-kick and leap-frog take rates once in a step dt, from the velocity of its middle at the places of its end. What
+   stands here turns them into those of the middle to second order, so that finite strains and turns are followed to dt^2:
+   L = G + dt/2 G G of the gradient G found, and S half a step on where S turns. */
+static void to_the_middle(sph_real dt, sph_real mu, sph_real (*l)[SPH_DIM], sph_real (*s)[SPH_DIM])
+{
+    sph_real g[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM];
+    memcpy(g, l, sizeof g);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = 0; c < SPH_DIM; c++) {
+            sph_real sum = 0;
+            for (uint32_t m = 0; m < SPH_DIM; m++)
+                sum += g[k][m] * g[m][c];
+            l[k][c] += (sph_real)0.5 * dt * sum;
+        }
+    jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, mu, rate);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = 0; c < SPH_DIM; c++)
+            s[k][c] += (sph_real)0.5 * dt * rate[k][c];
+}
+#endif
+
 sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    const bool weak = sph_weak_scheme(sim->cfg.scheme), corrects = sph_corrects(&sim->cfg) && set->role == SPH_ROLE_SOLID;
-    sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], rate[6], trace = 0;
+    const bool weak = sph_weak_scheme(sim->cfg.scheme), solid = set->role == SPH_ROLE_SOLID, corrects = sph_corrects(&sim->cfg) && solid;
+    const bool middle = SPH_HAS_RATES_FIRST && solid && (sim->mode == SPH_ADV_KDK || sim->mode == SPH_ADV_LEAP);
+    sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM], trace = 0;
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t c = 0; c < SPH_DIM; c++) {
             sph_real sum = weak ? raw[k * SPH_DIM + c] : raw[k * SPH_DIM + c] / rho;
@@ -49,27 +98,19 @@ sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, co
             }
             l[k][c] = -sum;
         }
+    if (solid) {
+        tensor_of(b, i, s);
+#if SPH_HAS_RATES_FIRST
+        if (middle)
+            to_the_middle((sph_real)sim->dt, set->shear_r, l, s);
+#endif
+        jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, set->shear_r, rate);
+        for (uint32_t k = 0; k < SPH_NS; k++)
+            b->dstress[k][i] = rate[kept_at[k][0]][kept_at[k][1]];
+    }
     for (uint32_t k = 0; k < SPH_DIM; k++)
         trace += l[k][k];
-    if (set->role != SPH_ROLE_SOLID)
-        return -trace;
-    tensor_of(b, i, s);
-    for (uint32_t k = 0; k < SPH_DIM; k++)
-        for (uint32_t c = k; c < SPH_DIM; c++) {
-            sph_real turn = 0; /* (W S - S W)_kc; S is symmetric, W antisymmetric */
-            for (uint32_t m = 0; m < SPH_DIM; m++)
-                turn += (sph_real)0.5 * ((l[k][m] - l[m][k]) * s[m][c] + (l[c][m] - l[m][c]) * s[m][k]);
-            const sph_real e = (sph_real)0.5 * (l[k][c] + l[c][k]) - (k == c ? trace / 3 : 0);
-            rate[sph_sym[k][c]] = 2 * set->shear_r * e + turn;
-        }
-#if SPH_DIM == 3
-    rate[2] = rate[3];
-    rate[3] = rate[4];
-    rate[4] = rate[5];
-#endif
-    for (uint32_t k = 0; k < SPH_NS; k++)
-        b->dstress[k][i] = rate[k];
-    return -trace;
+    return middle ? (sph_real)0.5 * (sph_real)sim->dt * trace * trace - trace : -trace; /* the density half a step on, too */
 }
 
 /* ---- the stress's way through a step ---- */
@@ -219,61 +260,113 @@ static bool solid_home(const sph_sim *sim, const sph_set *s)
 enum { SUM_FAR = SPH_NL };
 
 /* adds the tile's part of M to a home's sums, and the longest bond (m^2) of reference neighbours */
-static void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, bool total, bool wall)
+SPH_INLINE void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t kernel, bool weak, bool total, bool wall)
 {
     const sph_tile *c = wall ? &t->ghost : &t->fluid;
-    const uint32_t kernel = sim->cfg.kernel;
-    const bool weak = sph_weak_scheme(sim->cfg.scheme);
     const vreal inv_h = v_set(sim->fac.inv_h);
-    for (uint32_t j = 0; j < c->n; j += SPH_W) {
-        const uint32_t lane = j % SPH_LANES;
-        vreal dx[SPH_DIM], kx[SPH_DIM], k2 = v_set(0), x2 = v_set(0);
-        vint same = v_set_int(0);
-        if (total && !wall)
-            same = v_less(v_set((sph_real)0.5), v_set(t->solid_home.body[h])) & v_equal(v_set(t->solid_home.body[h]), v_load(t->solid.body + j));
-        for (int k = 0; k < SPH_DIM; k++) {
-            kx[k] = dx[k] = v_set(t->home.x[k][h]) - v_load(c->x[k] + j);
-            if (total && !wall)
-                kx[k] = v_select(same, v_set(t->solid_home.k[k][h]) - v_load(t->solid.k[k] + j), dx[k]);
-            k2 = k2 + kx[k] * kx[k];
-            x2 = x2 + dx[k] * dx[k];
-        }
-        const vreal q = v_sqrt(k2) * inv_h;
-        vreal mg = k_slope(kernel, q) * v_load(c->m + j);
-        if (weak)
-            mg = mg * v_load(c->iv + j);
-        for (int k = 0; k < SPH_DIM; k++)
-            for (int l = 0; l < SPH_DIM; l++) {
-                sph_real *sum = t->sum[k * SPH_DIM + l][h] + lane;
-                v_store(sum, v_load(sum) + mg * dx[k] * kx[l]);
-            }
-        if (total && !wall) {
-            sph_real *sum = t->sum[SUM_FAR][h] + lane;
-            v_store(sum, v_max(v_load(sum), v_where(same & v_less(q, v_set(sim->fac.reach)), x2)));
-        }
+    vreal s[SPH_NL + 1][SPH_NV], x[SPH_DIM], k[SPH_DIM];
+    const vreal body = v_set(total ? t->solid_home.body[h] : 0);
+    const int used = total ? SPH_NL + 1 : SPH_NL;
+    SPH_UNROLL
+    for (int a = 0; a < SPH_DIM; a++) {
+        x[a] = v_set(t->home.x[a][h]);
+        k[a] = v_set(total ? t->solid_home.k[a][h] : 0);
     }
+    for (int a = 0; a < used; a++)
+        SPH_UNROLL
+        for (int v = 0; v < SPH_NV; v++)
+            s[a][v] = v_load(t->sum[a][h] + v * SPH_W);
+    for (uint32_t from = 0; from < c->n; from += SPH_LANES)
+        SPH_UNROLL
+        for (uint32_t v = 0; v < SPH_NV; v++) {
+            const uint32_t j = from + v * SPH_W;
+            vreal dx[SPH_DIM], kx[SPH_DIM], k2 = v_set(0), x2 = v_set(0);
+            vint same = v_set_int(0);
+            if (total && !wall)
+                same = v_less(v_set((sph_real)0.5), body) & v_equal(body, v_load(t->solid.body + j));
+            SPH_UNROLL
+            for (int a = 0; a < SPH_DIM; a++) {
+                kx[a] = dx[a] = x[a] - v_load(c->x[a] + j);
+                if (total && !wall)
+                    kx[a] = v_select(same, k[a] - v_load(t->solid.k[a] + j), dx[a]);
+                k2 = k2 + kx[a] * kx[a];
+                x2 = x2 + dx[a] * dx[a];
+            }
+            const vreal q = v_sqrt(k2) * inv_h;
+            vreal mg = k_slope(kernel, q) * v_load(c->m + j);
+            if (weak)
+                mg = mg * v_load(c->iv + j);
+            SPH_UNROLL
+            for (int a = 0; a < SPH_DIM; a++)
+                SPH_UNROLL
+                for (int b = 0; b < SPH_DIM; b++)
+                    s[a * SPH_DIM + b][v] = s[a * SPH_DIM + b][v] + mg * dx[a] * kx[b];
+            if (total && !wall)
+                s[SUM_FAR][v] = v_max(s[SUM_FAR][v], v_where(same & v_less(q, v_set(sim->fac.reach)), x2));
+        }
+    for (int a = 0; a < used; a++)
+        SPH_UNROLL
+        for (int v = 0; v < SPH_NV; v++)
+            v_store(t->sum[a][h] + v * SPH_W, s[a][v]);
 }
+
+static __attribute__((noinline)) void correction_any(const sph_sim *sim, sph_thread *t, uint32_t homes, bool wall)
+{
+    const sph_config *c = &sim->cfg;
+    for (uint32_t h = 0; h < homes; h++)
+        correction_home(sim, t, h, c->kernel, sph_weak_scheme(c->scheme), sph_is_total(c), SPH_HAS_LAYERED_WALLS && wall);
+}
+
+#if SPH_WITH_FAST_PATHS
+/* the same text compiled with the choices as constants, as in fluid.c */
+#define SPH_FAST_LIST(X)                                                                                    \
+    X(cubic, SPH_CUBIC, false)                                                                              \
+    X(cubic_t, SPH_CUBIC, SPH_HAS_TOTAL)                                                                    \
+    X(w2, SPH_WENDLAND_C2, false)                                                                           \
+    X(w2_t, SPH_WENDLAND_C2, SPH_HAS_TOTAL)
+#define SPH_FAST_FN(name, kernel_, total_)                                                                  \
+    static __attribute__((noinline)) void correction_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)  \
+    {                                                                                                       \
+        for (uint32_t h = 0; h < homes; h++)                                                                \
+            correction_home(sim, t, h, kernel_, false, total_, false);                                      \
+    }
+SPH_FAST_LIST(SPH_FAST_FN)
+#undef SPH_FAST_FN
+#endif
 
 static void correction_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    for (uint32_t h = 0; h < homes; h++)
-        correction_home(sim, t, h, sph_is_total(&sim->cfg), role == SPH_ROLE_GHOST);
+#if SPH_WITH_FAST_PATHS
+    const sph_config *c = &sim->cfg;
+#define SPH_FAST_TRY(name, k, whole)                                                                        \
+    if (role == SPH_ROLE_FLUID && c->kernel == (k) && SPH_IS(c->scheme, STANDARD) && sph_is_total(c) == (whole)) {  \
+        correction_##name(sim, t, homes);                                                                   \
+        return;                                                                                             \
+    }
+    SPH_FAST_LIST(SPH_FAST_TRY)
+#undef SPH_FAST_TRY
+#undef SPH_FAST_LIST
+#endif
+    correction_any(sim, t, homes, role == SPH_ROLE_GHOST);
 }
 
-/* inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same trace */
+/* inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same norm (not the
+   trace: where the body has turned since the reference position, M has turned on one side) */
 static bool invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM])
 {
     sph_real det, mean = 0;
-    for (int k = 0; k < SPH_DIM; k++)
-        mean += m[k][k] / SPH_DIM;
+    for (int k = 0; k < SPH_NL; k++)
+        mean += m[k / SPH_DIM][k % SPH_DIM] * m[k / SPH_DIM][k % SPH_DIM];
+    mean = SPH_SQRT(mean / SPH_DIM);
 #if SPH_DIM == 1
     det = m[0][0];
-    const bool fine = mean > 0;
+    const bool fine = det > 0;
+    (void)mean;
     inv[0][0] = 1 / (fine ? det : 1);
     return fine;
 #elif SPH_DIM == 2
     det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    if (!(mean > 0 && det > (sph_real)1e-3 * (mean * mean)))
+    if (!(det > (sph_real)1e-3 * (mean * mean)))
         return false;
     inv[0][0] = m[1][1] / det;
     inv[1][1] = m[0][0] / det;
@@ -288,7 +381,7 @@ static bool invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM])
             co[k][l] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
         }
     det = m[0][0] * co[0][0] + m[0][1] * co[0][1] + m[0][2] * co[0][2];
-    if (!(mean > 0 && det > (sph_real)1e-3 * (mean * mean * mean)))
+    if (!(det > (sph_real)1e-3 * (mean * mean * mean)))
         return false;
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* bench.c: speed and memory of one build: a dam break with Adami walls, fluid n x n, Wendland C2 at h/dx 1.2,
-   predictor-corrector. Prints rows `name,value,unit,target,ok`; bench.sh compiles it several ways and gathers them.
+   predictor-corrector; and a free block of n x n particles, of water and of a solid, for what a solid costs. Prints rows `name,value,unit,target,ok`; bench.sh compiles it several ways and gathers them.
 
      bench PREFIX TARGET_RATE [full]    TARGET_RATE: M particle-steps/s of whole steps; full: all rows, else the rate only */
 #include <stdint.h>
@@ -109,6 +109,47 @@ static double best(tank *t, uint32_t steps, uint32_t repeats)
     return least;
 }
 
+/* a free block, slightly jittered and moving: water (form SPH_NO_SOLID) or a solid in tension here and there */
+static tank block(uint32_t n, uint32_t form, uint32_t repulsion, bool brittle)
+{
+    sph_config c = sph_config_default();
+    tank t;
+    uint32_t set, jitter = 1;
+    sph_solid m;
+    memset(&m, 0, sizeof m);
+    c.spacing = 1;
+    c.smoothing_length = 1.2;
+    c.rho0 = c.sound_speed = 1;
+    c.alpha = 0.5;
+    for (int k = 0; k < 2; k++) {
+        c.lo[k] = -5;
+        c.hi[k] = n + 5;
+    }
+    c.max_particles = n * n;
+    c.solid = form;
+    c.artificial_stress = repulsion;
+    c.yield = brittle ? SPH_VON_MISES : SPH_NO_YIELD;
+    c.damage = brittle ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
+    c.max_flaws = 1;
+    m.shear = 0.22;
+    t.bytes = sph_arena_bytes(&c);
+    t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
+    check(NULL, t.arena ? sph_init(&t.sim, &c, t.arena, t.bytes, NULL) : SPH_ARENA_TOO_SMALL, "init");
+    check(t.sim, form ? sph_add_solid(t.sim, &m, &set, NULL) : sph_add_fluid(t.sim, NULL, &set), "set");
+    for (uint32_t i = 0; i < n * n; i++) {
+        double x[2], v[2];
+        for (int k = 0; k < 2; k++) {
+            jitter = jitter * 1664525u + 1013904223u;
+            x[k] = (k ? i / n : i % n) + 0.45 + 0.1 * (jitter >> 8) / 16777216.0;
+            v[k] = 1e-3 * ((jitter >> 8) / 16777216.0 - 0.5);
+        }
+        check(t.sim, sph_add_particle(t.sim, set, x, v, 0, NULL), "particle");
+    }
+    check(t.sim, sph_ready(t.sim), "ready");
+    t.particles = n * n;
+    return t;
+}
+
 static void row(const char *prefix, const char *name, double value, const char *unit, double target, bool at_least)
 {
     const bool ok = at_least ? value >= target : value <= target;
@@ -160,6 +201,44 @@ static double step_over_force(void)
     return least_step / (least_force - least_hash);
 }
 
+/* what a step of a solid costs in steps of water, stepped in turns so that a busy machine slows both */
+static void solids(const char *prefix)
+{
+    static const struct {
+        const char *name;
+        uint32_t form, repulsion;
+        double most;
+    } kind[] = {{"elastic", SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, 2.5}, {"elastic_repelling", SPH_UPDATED, SPH_PRINCIPAL, 2.5},
+                {"corrected", SPH_CORRECTED, SPH_NO_ARTIFICIAL_STRESS, 0}, {"total", SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0}};
+    char name[64];
+    size_t elastic = 0;
+    for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
+        double water = 1e300, solid = 1e300;
+        tank w = block(200, SPH_NO_SOLID, 0, false), s = block(200, kind[k].form, kind[k].repulsion, false);
+        for (int r = 0; r < 25; r++) {
+            double from = now();
+            check(w.sim, sph_step(w.sim), "step");
+            water = now() - from < water ? now() - from : water;
+            from = now();
+            check(s.sim, sph_step(s.sim), "step");
+            solid = now() - from < solid ? now() - from : solid;
+        }
+        snprintf(name, sizeof name, "%s_over_water_2d_%s", kind[k].name, PRECISION);
+        row(prefix, name, solid / water, "ratio", kind[k].most, false);
+        snprintf(name, sizeof name, "%s_2d_%s_40k", kind[k].name, PRECISION);
+        row(prefix, name, s.particles / solid * 1e-6, "M particle-steps/s", k == 0 && !SPH_DOUBLE ? 4 : 0, true);
+        snprintf(name, sizeof name, "memory_%s_2d_%s", kind[k].name, PRECISION);
+        row(prefix, name, (double)s.bytes / s.particles, "bytes/particle", k < 2 && !SPH_DOUBLE ? 152 : 0, false);
+        elastic = k == 0 ? s.bytes : elastic;
+        free(w.arena);
+        free(s.arena);
+    }
+    tank b = block(200, SPH_UPDATED, 0, true);
+    snprintf(name, sizeof name, "memory_plastic_brittle_2d_%s", PRECISION);
+    row(prefix, name, (double)(b.bytes - elastic) / b.particles, "bytes/particle more", SPH_DOUBLE ? 0 : 24, false);
+    free(b.arena);
+}
+
 static void full(const char *prefix, double per_particle)
 {
     char name[64];
@@ -197,6 +276,7 @@ int main(int argc, char **argv)
         snprintf(name, sizeof name, "memory_2d_%s_100k", PRECISION);
         row(argv[1], name, (double)t.bytes / t.particles, "bytes/particle", SPH_DOUBLE ? 144 : 80, false);
         free(t.arena);
+        solids(argv[1]);
         full(argv[1], step / t.particles);
     }
     return 0;

@@ -23,8 +23,8 @@ typedef struct build_host {
 } build_host;
 
 typedef struct build_totals {
-    uint32_t fluid, wall;
-    double mass, momentum[3], kinetic, potential, internal, wall_work, dissipated, diffused, removed_mass, max_speed,
+    uint32_t fluid, wall, solid;
+    double mass, momentum[3], kinetic, potential, internal, elastic, plastic_work, wall_work, dissipated, diffused, removed_mass, max_speed,
         min_density, max_density;
 } build_totals;
 

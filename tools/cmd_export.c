@@ -19,7 +19,7 @@ static const char help[] =
 
 typedef struct out_field {
     const char *name;     /* as written */
-    const char *field[3]; /* components, by their names in dumpfile.h */
+    const char *field[6]; /* components, by their names in dumpfile.h */
     const char *type;     /* of VTK */
     uint32_t comps;
 } out_field;
@@ -30,6 +30,12 @@ static const out_field fields[] = {
     {"density_kg_per_m3", {"density"}, "Float64", 1},
     {"pressure_Pa", {"pressure"}, "Float64", 1},
     {"acceleration_m_per_s2", {"acceleration_x", "acceleration_y", "acceleration_z"}, "Float64", 3},
+    /* in the order of VTK */
+    {"stress_Pa", {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_xz"}, "Float64", 6},
+    {"mean_stress_Pa", {"mean_stress"}, "Float64", 1},
+    {"von_mises_Pa", {"von_mises"}, "Float64", 1},
+    {"plastic", {"plastic"}, "Float64", 1},
+    {"damage", {"damage"}, "Float64", 1},
     {"set", {"set"}, "UInt8", 1},
     {"id", {"id"}, "UInt32", 1},
 };
@@ -39,14 +45,14 @@ static const out_field fields[] = {
 typedef struct table {
     const dump_file *d;
     uint32_t *at, n;
-    double *column[FIELDS][3]; /* null: not carried */
+    double *column[FIELDS][6]; /* null: not carried */
 } table;
 
 static void free_table(table *t)
 {
     free(t->at);
     for (size_t f = 0; f < FIELDS; f++)
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 6; k++)
             free(t->column[f][k]);
 }
 
@@ -59,7 +65,7 @@ static bool make_table(table *t, const dump_file *d, bool walls)
     t->at = host_alloc(d->n * sizeof *t->at);
     for (uint32_t i = 0; i < d->n; i++) {
         uint32_t role = dump_role(d, i);
-        if (role == DUMP_FLUID || (walls && role != DUMP_GONE))
+        if (role != DUMP_GONE && (walls || !dump_is_wall(role)))
             t->at[t->n++] = i;
     }
     for (size_t f = 0; f < FIELDS; f++)

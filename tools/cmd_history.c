@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* cmd_history.c: sph history. Reads the CSV files of `sph run`: checks and summarises them, chooses and converts
    columns, overlays several runs and measured points in a plot (by gnuplot). */
-#define _POSIX_C_SOURCE 200809L
 #include "commands.h"
 #include "host.h"
+#include "table.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,126 +20,6 @@ static const char help[] =
     "  reference=     a CSV whose second and further columns are drawn as points against its first\n"
     "  size=WxH       of the plot in pixels, default 960x640\n";
 
-#define MAX_COLUMNS 64
-
-typedef struct history {
-    const char *file;
-    unsigned char *text;
-    const char *title; /* the comment in the first line, or "" */
-    const char *name[MAX_COLUMNS];
-    uint32_t columns, rows;
-    double *value; /* row by row */
-} history;
-
-static double at(const history *h, uint32_t row, uint32_t column)
-{
-    return h->value[(size_t)row * h->columns + column];
-}
-
-/* ---- reading ---- */
-
-/* the next line of *p, without its end; null at the end */
-static char *next_line(char **p)
-{
-    char *line = *p;
-    if (!*line)
-        return NULL;
-    char *end = line + strcspn(line, "\n");
-    *p = *end ? end + 1 : end;
-    *end = '\0';
-    if (end > line && end[-1] == '\r')
-        end[-1] = '\0';
-    return line;
-}
-
-static bool read_names(history *h, char *line)
-{
-    for (char *p = line; p; h->columns++) {
-        if (h->columns == MAX_COLUMNS) {
-            host_no("%s: more than %d columns", h->file, MAX_COLUMNS);
-            return false;
-        }
-        char *comma = strchr(p, ',');
-        if (comma)
-            *comma = '\0';
-        while (*p == ' ')
-            p++;
-        if (!*p) {
-            host_no("%s: a column without a name", h->file);
-            return false;
-        }
-        h->name[h->columns] = p;
-        p = comma ? comma + 1 : NULL;
-    }
-    return true;
-}
-
-static bool read_row(history *h, char *line, unsigned long number, size_t *room)
-{
-    size_t n = (size_t)h->rows * h->columns;
-    if (n + h->columns > *room) {
-        *room = 2 * (n + h->columns);
-        h->value = host_realloc(h->value, *room * sizeof *h->value);
-    }
-    for (uint32_t k = 0; k < h->columns; k++) {
-        char *end;
-        double v = strtod(line, &end);
-        while (*end == ' ')
-            end++;
-        if (end == line || *end != (k + 1 < h->columns ? ',' : '\0')) {
-            host_no("%s: line %lu: column %s is not a number, or there are not %u columns", h->file, number, h->name[k],
-                    h->columns);
-            return false;
-        }
-        h->value[n + k] = v;
-        line = end + 1;
-    }
-    h->rows++;
-    return true;
-}
-
-static void close_history(history *h)
-{
-    free(h->text);
-    free(h->value);
-}
-
-static bool read_lines(history *h, char *p)
-{
-    size_t room = 0;
-    unsigned long number = 0;
-    for (char *line; (line = next_line(&p));) {
-        number++;
-        if (*line == '#') {
-            if (number == 1)
-                h->title = line + 1 + strspn(line + 1, " ");
-        } else if (*line && !h->columns) {
-            if (!read_names(h, line))
-                return false;
-        } else if (*line && !read_row(h, line, number, &room))
-            return false;
-    }
-    if (h->rows)
-        return true;
-    host_no("%s: no rows", h->file);
-    return false;
-}
-
-static bool open_history(history *h, const char *file)
-{
-    size_t size;
-    memset(h, 0, sizeof *h);
-    h->file = file;
-    h->title = "";
-    h->text = host_read(file, &size);
-    if (!h->text)
-        return false;
-    if (read_lines(h, (char *)h->text))
-        return true;
-    close_history(h);
-    return false;
-}
-
 /* ---- choosing columns ---- */
 
 typedef struct pick {
@@ -149,20 +28,12 @@ typedef struct pick {
     char name[64];
 } pick;
 
-static int find_column(const history *h, const char *name, size_t n)
-{
-    for (uint32_t k = 0; k < h->columns; k++)
-        if (strlen(h->name[k]) == n && !memcmp(h->name[k], name, n))
-            return (int)k;
-    return -1;
-}
-
 /* one item of columns=: NAME[*FACTOR][+OFFSET][:NEWNAME], up to `end` */
-static bool parse_pick(const history *h, const char *item, const char *end, pick *p)
+static bool parse_pick(const table *h, const char *item, const char *end, pick *p)
 {
     const char *stop = item + strcspn(item, "*+:,");
     char *next = NULL;
-    int k = find_column(h, item, (size_t)(stop - item));
+    int k = table_column(h, item, (size_t)(stop - item));
     *p = (pick){0, 1, 0, ""};
     if (k < 0) {
         host_usage("columns: %s has no column %.*s", h->file, (int)(stop - item), item);
@@ -194,7 +65,7 @@ static bool parse_pick(const history *h, const char *item, const char *end, pick
 }
 
 /* how many columns were chosen, 0 after a message */
-static uint32_t choose(const history *h, const char *list, pick *p)
+static uint32_t choose(const table *h, const char *list, pick *p)
 {
     uint32_t n = 0;
     if (!list) {
@@ -206,40 +77,40 @@ static uint32_t choose(const history *h, const char *list, pick *p)
     }
     for (const char *item = list; item; n++) {
         const char *end = item + strcspn(item, ",");
-        if (n == MAX_COLUMNS || !parse_pick(h, item, end, &p[n]))
+        if (n == TABLE_COLUMNS || !parse_pick(h, item, end, &p[n]))
             return 0;
         item = *end ? end + 1 : NULL;
     }
     return n;
 }
 
-static double picked(const history *h, uint32_t row, const pick *p)
+static double picked(const table *h, uint32_t row, const pick *p)
 {
-    return at(h, row, p->column) * p->factor + p->offset;
+    return table_at(h, row, p->column) * p->factor + p->offset;
 }
 
 /* ---- check and summary ---- */
 
-static bool check(const history *h)
+static bool check(const table *h)
 {
     for (uint32_t i = 0; i < h->rows; i++)
         for (uint32_t k = 0; k < h->columns; k++)
-            if (!isfinite(at(h, i, k))) {
+            if (!isfinite(table_at(h, i, k))) {
                 host_no("%s: row %u: %s is not finite", h->file, i + 1, h->name[k]);
                 return false;
             }
     for (uint32_t i = 1; i < h->rows; i++)
-        if (!(at(h, i, 0) > at(h, i - 1, 0))) {
-            host_no("%s: row %u: %s does not increase: %.9g after %.9g", h->file, i + 1, h->name[0], at(h, i, 0),
-                    at(h, i - 1, 0));
+        if (!(table_at(h, i, 0) > table_at(h, i - 1, 0))) {
+            host_no("%s: row %u: %s does not increase: %.9g after %.9g", h->file, i + 1, h->name[0], table_at(h, i, 0),
+                    table_at(h, i - 1, 0));
             return false;
         }
     return true;
 }
 
-static bool summarise(const history *h, const char *list)
+static bool summarise(const table *h, const char *list)
 {
-    pick p[MAX_COLUMNS];
+    pick p[TABLE_COLUMNS];
     uint32_t n = choose(h, list, p);
     if (!n)
         return false;
@@ -257,9 +128,9 @@ static bool summarise(const history *h, const char *list)
     return true;
 }
 
-static int write_columns(const history *h, const char *list, const char *out)
+static int write_columns(const table *h, const char *list, const char *out)
 {
-    pick p[MAX_COLUMNS];
+    pick p[TABLE_COLUMNS];
     host_file f;
     uint32_t n = choose(h, list, p);
     if (!n)
@@ -281,16 +152,7 @@ static int write_columns(const history *h, const char *list, const char *out)
 
 /* ---- plot ---- */
 
-/* text inside single quotes of gnuplot */
-static void quote(FILE *g, const char *text)
-{
-    fputc('\'', g);
-    for (; *text; text++)
-        fprintf(g, *text == '\'' ? "''" : "%c", *text);
-    fputc('\'', g);
-}
-
-static void put_block(FILE *g, const char *name, uint32_t number, const history *h, const pick *p, uint32_t n)
+static void put_block(FILE *g, const char *name, uint32_t number, const table *h, const pick *p, uint32_t n)
 {
     fprintf(g, "$%s%u << END_OF_DATA\n", name, number);
     for (uint32_t i = 0; i < h->rows; i++)
@@ -299,47 +161,45 @@ static void put_block(FILE *g, const char *name, uint32_t number, const history 
     fputs("END_OF_DATA\n", g);
 }
 
-static void put_curves(FILE *g, const char *name, uint32_t number, const history *h, const pick *p, uint32_t n,
+static void put_curves(FILE *g, const char *name, uint32_t number, const table *h, const pick *p, uint32_t n,
                        const char *with, bool *first)
 {
     for (uint32_t k = 1; k < n; k++) {
         char title[256];
         snprintf(title, sizeof title, "%s: %s", h->file, p[k].name);
         fprintf(g, "%s $%s%u using 1:%u with %s title ", *first ? "plot" : ",", name, number, k + 1, with);
-        quote(g, title);
+        plot_quote(g, title);
         *first = false;
     }
 }
 
 typedef struct curves {
-    history h;
-    pick p[MAX_COLUMNS];
+    table h;
+    pick p[TABLE_COLUMNS];
     uint32_t n;
 } curves;
 
 static bool read_curves(curves *c, const char *file, const char *list)
 {
-    if (!open_history(&c->h, file))
+    if (!table_open(&c->h, file))
         return false;
     c->n = choose(&c->h, list, c->p);
     if (c->n > 1)
         return true;
     if (c->n == 1)
         host_usage("%s: a plot needs two columns", file);
-    close_history(&c->h);
+    table_close(&c->h);
     return false;
 }
 
-static void put_script(FILE *g, const curves *c, uint32_t files, uint32_t refs, const char *tmp, int width, int height)
+static void put_script(FILE *g, const curves *c, uint32_t files, uint32_t refs)
 {
     bool first = true;
-    fprintf(g, "set terminal pngcairo noenhanced size %d,%d\nset output ", width, height);
-    quote(g, tmp);
-    fputs("\nset grid\nset key outside bottom center\nset xlabel ", g);
-    quote(g, c[0].p[0].name);
+    fputs("set grid\nset key outside bottom center\nset xlabel ", g);
+    plot_quote(g, c[0].p[0].name);
     if (c[0].n == 2) {
         fputs("\nset ylabel ", g);
-        quote(g, c[0].p[1].name);
+        plot_quote(g, c[0].p[1].name);
     }
     fputs("\n", g);
     for (uint32_t k = 0; k < files + refs; k++)
@@ -352,27 +212,14 @@ static void put_script(FILE *g, const curves *c, uint32_t files, uint32_t refs, 
 
 static int run_gnuplot(const curves *c, uint32_t files, uint32_t refs, const char *out, int width, int height)
 {
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0)
-        return host_no("plot= needs gnuplot, which is not installed (on Debian: the package gnuplot-nox); "
-                       "out=NAME.csv writes the columns without it");
-    size_t room = strlen(out) + 8;
-    char *tmp = host_alloc(room);
-    snprintf(tmp, room, "%s.tmp", out);
-    FILE *g = popen("gnuplot", "w");
-    int result = HOST_NO;
-    if (g) {
-        put_script(g, c, files, refs, tmp, width, height);
-        result = pclose(g) == 0 && rename(tmp, out) == 0 ? HOST_FINE : HOST_NO;
-    }
-    if (result) {
-        remove(tmp);
-        host_no("gnuplot could not make %s", out);
-    }
-    free(tmp);
-    return result;
+    plot p;
+    if (!plot_open(&p, out, width, height))
+        return HOST_NO;
+    put_script(p.g, c, files, refs);
+    return plot_close(&p) ? HOST_FINE : HOST_NO;
 }
 
-static int plot(char **files, uint32_t n, const char *list, const char *reference, const char *out, int width,
+static int plot_files(char **files, uint32_t n, const char *list, const char *reference, const char *out, int width,
                 int height)
 {
     curves *c = host_alloc((n + 1) * sizeof *c);
@@ -381,31 +228,25 @@ static int plot(char **files, uint32_t n, const char *list, const char *referenc
         read++;
     int result = read == all ? run_gnuplot(c, n, all - n, out, width, height) : HOST_NO;
     for (uint32_t k = 0; k < read; k++)
-        close_history(&c[k].h);
+        table_close(&c[k].h);
     free(c);
     return result;
 }
 
 /* ---- the command ---- */
 
-static bool ends_in(const char *text, const char *end)
-{
-    size_t n = strlen(text), m = strlen(end);
-    return n > m && !strcmp(text + n - m, end);
-}
-
 static int summarise_all(char **files, int n, const char *list)
 {
     int result = HOST_FINE;
     for (int k = 0; k < n; k++) {
-        history h;
-        if (!open_history(&h, files[k])) {
+        table h;
+        if (!table_open(&h, files[k])) {
             result = HOST_NO;
             continue;
         }
         if (!check(&h) || !summarise(&h, list))
             result = HOST_NO;
-        close_history(&h);
+        table_close(&h);
     }
     return result;
 }
@@ -429,20 +270,20 @@ int cmd_history(int argc, char **argv)
     if (size && (sscanf(size, "%dx%d%c", &width, &height, &rest) != 2 || width < 200 || width > 16000 || height < 150 ||
                  height > 16000))
         return host_usage("size=%s: must be WIDTHxHEIGHT, from 200x150 to 16000x16000", size);
-    if (image && !ends_in(image, ".png"))
-        return host_usage("plot=%s: must end in .png", image);
+    if (image && !plot_name("plot", image))
+        return HOST_USAGE;
     if (reference && !image)
         return host_usage("reference= is for plot=");
     if (out && files > 1)
         return host_usage("out= takes one history file, %d were given", files);
     if (out) {
-        history h;
-        if (!open_history(&h, argv[1]))
+        table h;
+        if (!table_open(&h, argv[1]))
             return HOST_NO;
         result = write_columns(&h, list, out);
-        close_history(&h);
+        table_close(&h);
     }
     if (image && !result)
-        result = plot(argv + 1, (uint32_t)files, list, reference, image, width, height);
+        result = plot_files(argv + 1, (uint32_t)files, list, reference, image, width, height);
     return out || image ? result : summarise_all(argv + 1, files, list);
 }

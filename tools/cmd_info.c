@@ -61,15 +61,15 @@ static void print_array(const dump_section *s)
 
 static void print_dump(const dump_file *d)
 {
-    uint32_t by_role[4] = {0, 0, 0, 0};
+    uint32_t by_role[DUMP_GONE + 1] = {0};
     for (uint32_t i = 0; i < d->n; i++) {
         uint32_t role = dump_role(d, i);
-        by_role[role < 3 ? role : 3]++;
+        by_role[role < DUMP_GONE ? role : DUMP_GONE]++;
     }
     printf("%s: %s dump, version %u, %u-D, %s, %zu bytes\n", d->name, d->full ? "full" : "reduced", d->version, d->dim,
            d->real_bytes == 8 ? "double" : "float", d->size);
-    printf("%u particles: %u fluid, %u ghost wall, %u force wall, %u gone\n", d->n, by_role[0], by_role[1], by_role[2],
-           by_role[3]);
+    printf("%u particles: %u fluid, %u solid, %u ghost wall, %u force wall, %u gone\n", d->n, by_role[DUMP_FLUID],
+           by_role[DUMP_SOLID], by_role[DUMP_GHOST], by_role[DUMP_FORCE_WALL], by_role[DUMP_GONE]);
     for (uint32_t k = 0; k < d->sections; k++)
         if (d->section[k].type == DUMP_RECORD)
             print_record(&d->section[k]);

@@ -14,7 +14,9 @@ static const char help[] =
     "usage: sph render DUMP... out=NAME.png [options]\n"
     "  out=NAME.png   the picture; of several dumps NAME_0000.png, NAME_0001.png, ..., all with one range of colours\n"
     "  field=speed    what colours mean: " DUMP_FIELDS "\n"
-    "  min=, max=     fixed range of the field (default: that of the particles drawn)\n"
+    "  min=, max=     fixed range of the field (default: that of the particles drawn; of stresses and of components of\n"
+    "                 vectors as far below 0 as above)\n"
+    "  palette=       even (violet to yellow) or signed (blue below 0, grey, red above; the default for the latter)\n"
     "  size=WxH       in pixels, default 960x640\n"
     "  view=A,B,C,D   the part shown, in m: from A to B across and from C to D up (default: all particles)\n"
     "  walls=yes|no   wall particles in grey (default yes)\n"
@@ -26,6 +28,7 @@ typedef struct options {
     const char *field, *out;
     int width, height;
     bool walls, has_min, has_max, has_view, has_slice;
+    int palette; /* EVEN, SIGNED; BY_FIELD until the field is known */
     double min, max, view[4], slice, thick, azimuth, elevation;
     uint32_t slice_axis;
 } options;
@@ -42,6 +45,8 @@ typedef struct scene {
     double x0, x1, y0, y1; /* part shown, m */
     const char *unit, *across, *up;
 } scene;
+
+enum { EVEN, SIGNED, BY_FIELD };
 
 static const colour white = {255, 255, 255}, black = {20, 20, 20}, grey = {170, 170, 170};
 
@@ -102,14 +107,14 @@ static bool make_scene(scene *s, const options *o, const dump_file *d)
     s->dot = host_alloc(d->n * sizeof *s->dot);
     for (uint32_t i = 0; i < d->n; i++) {
         const uint32_t role = dump_role(d, i);
-        if (role == DUMP_GONE || (role != DUMP_FLUID && !o->walls))
+        if (role == DUMP_GONE || (dump_is_wall(role) && !o->walls))
             continue;
         for (uint32_t k = 0; k < d->dim; k++)
             x[k] = dump_x(d, i, k);
         if (d->dim == 3 && !in_slice(o, x))
             continue;
         dot *t = &s->dot[s->n++];
-        *t = (dot){0, 0, 0, value[i], role != DUMP_FLUID};
+        *t = (dot){0, 0, 0, value[i], dump_is_wall(role)};
         project(o, x, d->dim, t);
     }
     free(value);
@@ -228,12 +233,20 @@ static void draw_axes(image *m, const frame *f, const scene *s)
     image_text(m, 2 * g, f->top - h - 2 * g, g, s->up, black);
 }
 
+/* signed: grey is 0 wherever the range ends */
+static colour colour_of(const options *o, double v, double low, double high)
+{
+    return o->palette == SIGNED ? image_map_signed(0.5 + 0.5 * v / fmax(fabs(low), fabs(high)))
+                                : image_map((v - low) / (high - low));
+}
+
 static void draw_bar(image *m, const frame *f, const options *o, const char *unit, double low, double high)
 {
     char text[64];
     const int g = f->scale, x = m->width - 78 * g, top = 40 * g, width = 14 * g, height = m->height - top - 40 * g;
     for (int k = 0; k < height; k++)
-        image_rect(m, x, top + height - 1 - k, width, 1, image_map((k + 0.5) / height));
+        image_rect(m, x, top + height - 1 - k, width, 1,
+                   colour_of(o, low + (high - low) * (k + 0.5) / height, low, high));
     double step = tick_step(high - low, 6);
     for (double v = ceil(low / step - 1e-9) * step; v <= high + 1e-9 * step; v += step) {
         const int y = top + height - (int)lround((v - low) / (high - low) * height);
@@ -273,7 +286,7 @@ static void draw_dots(image *m, const frame *f, const scene *s, const dump_file 
             draw_dot(m, f, s, t, solid ? fmin(size, f->scale) : size, grey);
             continue;
         }
-        const colour c = image_map((t->value - low) / (high - low));
+        const colour c = colour_of(o, t->value, low, high);
         if (solid && size >= 4) {
             const colour rim = {(uint8_t)(c.r * 0.7), (uint8_t)(c.g * 0.7), (uint8_t)(c.b * 0.7)};
             draw_dot(m, f, s, t, size * 1.15, rim);
@@ -305,12 +318,12 @@ static bool draw(scene *s, const dump_file *d, const options *o, double low, dou
 
 /* ---- the command ---- */
 
-/* the range of colours: what was asked for, else that of all the dumps */
-static bool find_range(char **dumps, int n, const options *o, double *low, double *high)
+/* the palette of the field, and the range of colours: what was asked for, else that of all the dumps */
+static bool find_range(char **dumps, int n, options *o, double *low, double *high)
 {
     *low = HUGE_VAL;
     *high = -HUGE_VAL;
-    for (int k = 0; k < n && !(o->has_min && o->has_max); k++) {
+    for (int k = 0; k < n && !(o->has_min && o->has_max && o->palette != BY_FIELD); k++) {
         dump_file d;
         scene s;
         if (!dump_open(&d, dumps[k]))
@@ -318,6 +331,8 @@ static bool find_range(char **dumps, int n, const options *o, double *low, doubl
         bool fine = make_scene(&s, o, &d);
         if (fine)
             value_range(&s, low, high);
+        if (fine && o->palette == BY_FIELD)
+            o->palette = dump_field_signed(&d, o->field) ? SIGNED : EVEN;
         if (fine)
             free(s.dot);
         dump_close(&d);
@@ -326,6 +341,11 @@ static bool find_range(char **dumps, int n, const options *o, double *low, doubl
     }
     if (*low > *high)
         *low = *high = 0;
+    if (o->palette == SIGNED) { /* a range that was not asked for reaches as far below 0 as above */
+        const double most = o->has_min ? -o->min : o->has_max ? o->max : fmax(fabs(*low), fabs(*high));
+        *low = most > 0 ? -most : *low;
+        *high = most > 0 ? most : *high;
+    }
     *low = o->has_min ? o->min : *low;
     *high = o->has_max ? o->max : *high;
     if (!(*high > *low)) { /* one value only: a bar around it */
@@ -336,7 +356,7 @@ static bool find_range(char **dumps, int n, const options *o, double *low, doubl
     return true;
 }
 
-static int render(char **dumps, int n, const options *o)
+static int render(char **dumps, int n, options *o)
 {
     double low, high;
     char *name = host_alloc(strlen(o->out) + 32);
@@ -395,9 +415,10 @@ static bool parse_size(const char *text, options *o)
 
 static bool parse_options(int argc, char **argv, options *o)
 {
-    static const char *const yes_no[] = {"no", "yes", NULL};
+    static const char *const yes_no[] = {"no", "yes", NULL}, *const palettes[] = {"even", "signed", NULL};
     const char *t;
-    *o = (options){.field = "speed", .width = 960, .height = 640, .walls = true, .azimuth = 30, .elevation = 20};
+    *o = (options){.field = "speed", .palette = BY_FIELD, .width = 960, .height = 640,
+                   .walls = true, .azimuth = 30, .elevation = 20};
     if ((t = host_option(argc, argv, "field")))
         o->field = t;
     if ((t = host_option(argc, argv, "walls"))) {
@@ -406,6 +427,8 @@ static bool parse_options(int argc, char **argv, options *o)
             return false;
         o->walls = c == 1;
     }
+    if ((t = host_option(argc, argv, "palette")) && (o->palette = host_choice("palette", t, palettes)) < 0)
+        return false;
     o->out = host_option(argc, argv, "out");
     o->has_min = (t = host_option(argc, argv, "min")) != NULL;
     if (t && !host_number("min", t, -1e300, 1e300, &o->min))
@@ -432,8 +455,8 @@ static bool parse_options(int argc, char **argv, options *o)
 
 int cmd_render(int argc, char **argv)
 {
-    static const char *const known[] = {"out",   "field", "min",     "max",       "size", "view",
-                                        "walls", "slice", "azimuth", "elevation", NULL};
+    static const char *const known[] = {"out",   "field", "min",     "max",       "size",    "view",
+                                        "walls", "slice", "azimuth", "elevation", "palette", NULL};
     options o;
     host_command("render");
     if (host_help(argc, argv, help))

@@ -321,18 +321,21 @@ static void report(const run *r, FILE *out)
     double s = seconds(r->stepping), rate = s > 0 ? (double)steps / s : 0;
     fprintf(out, "scene          %s, %u-D, %s, %llu thread%s\n", r->scene.name, r->b->dimension,
             r->is_double ? "double" : "float", (unsigned long long)r->threads, r->threads == 1 ? "" : "s");
-    fprintf(out, "particles      %u fluid, %u wall\n", o.fluid, o.wall);
+    fprintf(out, "particles      %u fluid, %u wall", o.fluid, o.wall);
+    fprintf(out, o.solid ? ", %u solid\n" : "\n", o.solid);
     fprintf(out, "time           %.10g s, %llu steps, last dt %.4g s\n", info.time,
             (unsigned long long)info.step, info.dt);
     if (steps)
         fprintf(out, "speed          %.4g steps/s, %.4g particle-steps/s, %.2f s in %llu steps\n", rate,
-                rate * (o.fluid + o.wall), s, (unsigned long long)steps);
+                rate * (o.fluid + o.wall + o.solid), s, (unsigned long long)steps);
     report_limits(r, out);
     fprintf(out, "arena          %zu bytes, %.1f a particle; at most %u in a cell\n", u.arena_used,
             (double)u.arena_used / u.max_particles, u.cell_particles);
     fprintf(out, "walls, faces   crossed %u, put back %u, left %u, reflected %u, mass removed %.6g kg\n", info.crossed,
             info.put_back, info.left, info.reflected, o.removed_mass);
     fprintf(out, "energy         kinetic %.8g, potential %.8g, internal %.8g J\n", o.kinetic, o.potential, o.internal);
+    if (o.solid)
+        fprintf(out, "solids         elastic %.8g, plastic work %.8g J\n", o.elastic, o.plastic_work);
     fprintf(out, "books          wall work %.8g, dissipated %.8g, diffused %.8g J\n", o.wall_work, o.dissipated,
             o.diffused);
     fprintf(out, "density        %.8g .. %.8g kg/m^3; mass %.10g kg; fastest %.6g m/s\n", o.min_density, o.max_density,

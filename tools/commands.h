@@ -15,5 +15,9 @@ int cmd_diff(int argc, char **argv);
 int cmd_export(int argc, char **argv);
 int cmd_render(int argc, char **argv);
 int cmd_history(int argc, char **argv);
+int cmd_dispersion(int argc, char **argv);
+int cmd_profile(int argc, char **argv);
+int cmd_fragments(int argc, char **argv);
+int cmd_gradykipp(int argc, char **argv);
 
 #endif

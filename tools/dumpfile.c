@@ -12,6 +12,7 @@
 #define PREAMBLE 32u
 #define HEADER 64u
 #define FIELD 32u
+#define PERIODIC 1u /* of scene.face: SPH_PERIODIC */
 
 static uint64_t number(const unsigned char *p, uint32_t bytes)
 {
@@ -153,13 +154,16 @@ static bool needs(const dump_file *d, const char *record, const char *field, uin
     return true;
 }
 
+enum { SYMMETRIC = 99 };
+
 static bool check_arrays(dump_file *d)
 {
     static const struct {
         const char *name;
-        uint32_t type, comps; /* 0: that of reals, of positions (1); the dimension */
+        uint32_t type, comps; /* 0: that of reals, of positions (1); the dimension, SYMMETRIC: of a deviator */
     } list[] = {{"pos", 1, 0}, {"id", DUMP_U32, 1}, {"set", DUMP_U8, 1}, {"vel", 0, 0},
-                {"rho", 0, 1}, {"p", 0, 1},         {"acc", 0, 0},       {"drho", 0, 1}, {"xsph", 0, 0}};
+                {"rho", 0, 1}, {"p", 0, 1},         {"acc", 0, 0},       {"drho", 0, 1}, {"xsph", 0, 0},
+                {"stress", 0, SYMMETRIC}, {"plastic", 0, 1}, {"damage", 0, 1}};
     for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
         const dump_section *s = dump_find(d, list[k].name);
         uint32_t type = list[k].type > 1 || k == 2 ? list[k].type
@@ -167,7 +171,8 @@ static bool check_arrays(dump_file *d)
                                                    : d->real_bytes == 8 ? DUMP_F64 : DUMP_F32;
         if (!s && k < 3)
             return refuse(d, "the dump is corrupt: it lacks", list[k].name);
-        if (s && (s->type != type || s->comps != (list[k].comps ? list[k].comps : d->dim) || s->count != d->n))
+        const uint32_t comps = list[k].comps == SYMMETRIC ? 2 * d->dim - 1 : list[k].comps ? list[k].comps : d->dim;
+        if (s && (s->type != type || s->comps != comps || s->count != d->n))
             return refuse(d, "the dump is corrupt: shape of", list[k].name);
     }
     d->pos = dump_find(d, "pos");
@@ -334,125 +339,11 @@ uint32_t dump_role(const dump_file *d, uint32_t i)
     uint32_t set = dump_set(d, i);
     return set == DUMP_DEAD ? DUMP_GONE : small(dump_number(d, "sets", "role", set, 0));
 }
+bool dump_is_wall(uint32_t role) { return role == DUMP_GHOST || role == DUMP_FORCE_WALL; }
+bool dump_periodic(const dump_file *d, uint32_t axis) { return dump_number(d, "scene", "face", 0, 2 * axis) == PERIODIC; }
 double dump_x(const dump_file *d, uint32_t i, uint32_t axis)
 {
     return d->lo[axis] + d->quantum * dump_value(d->pos, axis, i);
-}
-
-/* constants of the sets, looked up once for a whole field */
-typedef struct set_constants {
-    uint32_t role, group;
-    double rho0, scale;
-} set_constants;
-
-static void get_sets(const dump_file *d, set_constants *c)
-{
-    for (uint32_t s = 0; s < d->sets && s < 256; s++)
-        c[s] =
-            (set_constants){small(dump_number(d, "sets", "role", s, 0)), small(dump_number(d, "sets", "group", s, 0)),
-                            dump_number(d, "sets", "rho0", s, 0), dump_number(d, "sets", "pressure_scale", s, 0)};
-}
-
-/* equations of state by their number in sph.h: 2 linear, 3 isothermal, else Tait's */
-static double pressure(const dump_file *d, double scale, double s)
-{
-    double p = d->eos == 2   ? scale * s
-               : d->eos == 3 ? scale * (1 + s)
-                          : scale * (s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s)))))));
-    return d->pressure_floor && p < 0 ? 0 : p;
-}
-
-enum { F_NONE, F_X, F_VELOCITY, F_SPEED, F_DENSITY, F_PRESSURE, F_ACCELERATION, F_SET, F_ID };
-
-static int parse_field(const dump_file *d, const char *field, uint32_t *axis)
-{
-    static const struct {
-        const char *name;
-        int kind;
-    } whole[] = {{"speed", F_SPEED}, {"density", F_DENSITY}, {"pressure", F_PRESSURE}, {"set", F_SET}, {"id", F_ID}},
-      parts[] = {{"velocity_", F_VELOCITY}, {"acceleration_", F_ACCELERATION}, {"", F_X}};
-    for (size_t k = 0; k < sizeof whole / sizeof *whole; k++)
-        if (!strcmp(field, whole[k].name))
-            return whole[k].kind;
-    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
-        size_t n = strlen(parts[k].name);
-        if (!strncmp(field, parts[k].name, n) && field[n] >= 'x' && field[n] <= 'z' && !field[n + 1]) {
-            *axis = (uint32_t)(field[n] - 'x');
-            return *axis < d->dim ? parts[k].kind : F_NONE;
-        }
-    }
-    return F_NONE;
-}
-
-static const char *array_of(const dump_file *d, int kind)
-{
-    switch (kind) {
-    case F_X: return "pos";
-    case F_VELOCITY:
-    case F_SPEED: return "vel";
-    case F_DENSITY: return "rho";
-    case F_PRESSURE: return dump_find(d, "rho") ? "rho" : "p";
-    case F_ACCELERATION: return "acc";
-    case F_SET: return "set";
-    default: return "id";
-    }
-}
-
-bool dump_has_field(const dump_file *d, const char *field)
-{
-    uint32_t axis = 0;
-    int kind = parse_field(d, field, &axis);
-    return kind != F_NONE && dump_find(d, array_of(d, kind));
-}
-
-/* a velocity component; a wall has that of its group */
-static double velocity(const dump_file *d, const dump_section *a, const set_constants *c, uint32_t i, uint32_t axis)
-{
-    if (c && c->role != DUMP_FLUID)
-        return dump_number(d, "groups", "velocity", c->group, axis);
-    return dump_value(a, axis, i);
-}
-
-static double one_value(const dump_file *d, int kind, const dump_section *a, const set_constants *c, uint32_t i,
-                        uint32_t axis)
-{
-    double v2 = 0;
-    switch (kind) {
-    case F_X: return dump_x(d, i, axis);
-    case F_VELOCITY: return velocity(d, a, c, i, axis);
-    case F_SPEED:
-        for (uint32_t k = 0; k < d->dim; k++)
-            v2 += velocity(d, a, c, i, k) * velocity(d, a, c, i, k);
-        return sqrt(v2);
-    case F_DENSITY: return c ? c->rho0 * (1 + dump_value(a, 0, i)) : 0;
-    case F_PRESSURE:
-        return !c ? 0 : strcmp(a->name, "rho") ? dump_value(a, 0, i) : pressure(d, c->scale, dump_value(a, 0, i));
-    default: return dump_value(a, axis, i);
-    }
-}
-
-bool dump_field(const dump_file *d, const char *field, double *out, const char **unit)
-{
-    static const char *const units[] = {"", "m", "m/s", "m/s", "kg/m^3", "Pa", "m/s^2", "", ""};
-    uint32_t axis = 0;
-    int kind = parse_field(d, field, &axis);
-    if (kind == F_NONE) {
-        host_usage("field %s: not a field of a %u-D dump; fields: " DUMP_FIELDS, field, d->dim);
-        return false;
-    }
-    const dump_section *a = dump_find(d, array_of(d, kind));
-    if (!a) {
-        host_no("%s: carries no array %s, which the field %s needs", d->name, array_of(d, kind), field);
-        return false;
-    }
-    set_constants sets[256] = {{0}};
-    get_sets(d, sets);
-    *unit = units[kind];
-    for (uint32_t i = 0; i < d->n; i++) {
-        uint32_t set = dump_set(d, i);
-        out[i] = one_value(d, kind, a, set == DUMP_DEAD ? NULL : &sets[set], i, axis);
-    }
-    return true;
 }
 
 /* ---- checks of values ---- */
@@ -490,7 +381,8 @@ bool dump_check(const dump_file *d)
     return fine;
 }
 
-int dump_each(int argc, char **argv, const char *command, const char *help, bool (*each)(const dump_file *d, const char *name))
+int dump_each(int argc, char **argv, const char *command, const char *help,
+              bool (*each)(const dump_file *d, const char *name))
 {
     static const char *const known[] = {NULL};
     int result = HOST_FINE;

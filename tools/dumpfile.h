@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 enum { DUMP_RECORD, DUMP_U8, DUMP_U32, DUMP_I32, DUMP_I64, DUMP_F32, DUMP_F64, DUMP_U64 };
-enum { DUMP_FLUID, DUMP_GHOST, DUMP_FORCE_WALL, DUMP_GONE }; /* roles */
+enum { DUMP_FLUID, DUMP_GHOST, DUMP_FORCE_WALL, DUMP_SOLID, DUMP_GONE }; /* roles */
 #define DUMP_DEAD 255u /* set of a particle that is gone */
 
 typedef struct dump_section {
@@ -39,7 +39,8 @@ typedef struct dump_file {
 bool dump_open(dump_file *d, const char *name);
 void dump_close(dump_file *d);
 /* What info, verify and hash share: reads the dumps that a command was given and calls each(dump, name); the exit code. */
-int dump_each(int argc, char **argv, const char *command, const char *help, bool (*each)(const dump_file *d, const char *name));
+int dump_each(int argc, char **argv, const char *command, const char *help,
+              bool (*each)(const dump_file *d, const char *name));
 /* What a restore would ask besides: ids once each, finite values, positions inside. False after a message. */
 bool dump_check(const dump_file *d);
 
@@ -65,12 +66,20 @@ double dump_number(const dump_file *d, const char *record, const char *field, ui
 uint32_t dump_set(const dump_file *d, uint32_t i);
 uint32_t dump_id(const dump_file *d, uint32_t i);
 uint32_t dump_role(const dump_file *d, uint32_t i);
+bool dump_is_wall(uint32_t role);
 double dump_x(const dump_file *d, uint32_t i, uint32_t axis); /* m */
+bool dump_periodic(const dump_file *d, uint32_t axis);        /* does the domain repeat? */
 
-/* Fields by name: x y z, velocity_x.., speed, density, pressure, acceleration_x.., set, id. Fills out[0..n) and the
-   unit; false after a message if the dump does not carry it. dump_has_field asks without a message. */
-#define DUMP_FIELDS "x y z velocity_x velocity_y velocity_z speed density pressure acceleration_x.. set id"
+/* Fields by name (dumpfields.c). Fills out[0..n) and the unit; false after a message if the dump does not carry it.
+   dump_has_field asks without a message; dump_field_signed: do its values spread around 0, as stresses do?
+   Stress is what the particle bears (Gray 5.33, 5.34): (1 - D) S - P, and of P the factor in tension only; positive in
+   tension. mean_stress is a third of its trace in space, stress_sum that in the plane, which Gray calls the mean stress.
+   damage is D; the array of that name holds D^(1/dim). */
+#define DUMP_FIELDS \
+    "x y z velocity_x.. speed density pressure acceleration_x.. stress_xx stress_yy stress_xy.. mean_stress " \
+    "stress_sum von_mises plastic damage set id"
 bool dump_field(const dump_file *d, const char *field, double *out, const char **unit);
 bool dump_has_field(const dump_file *d, const char *field);
+bool dump_field_signed(const dump_file *d, const char *field);
 
 #endif

@@ -124,20 +124,30 @@ static uint8_t to_byte(double linear)
     return (uint8_t)lround(255 * fmin(1, fmax(0, s)));
 }
 
-colour image_map(double s)
+/* a colour of OKLab by lightness, chroma and hue (degrees) */
+static colour from_oklab(double light, double chroma, double hue)
 {
-    const double pi = 3.14159265358979323846;
-    s = s > 0 ? s < 1 ? s : 1 : 0;
-    /* violet (hue 300 degrees) through blue and green to yellow (hue 105); chroma stays inside what a screen can show
-     */
-    const double light = 0.25 + 0.67 * s, hue = (300 - 195 * s) * pi / 180, u = 2 * s - 1,
-                 chroma = 0.085 + 0.045 * u * u;
-    const double a = chroma * cos(hue), b = chroma * sin(hue);
+    const double rad = 3.14159265358979323846 / 180, a = chroma * cos(hue * rad), b = chroma * sin(hue * rad);
     const double l = light + 0.3963377774 * a + 0.2158037573 * b, m = light - 0.1055613458 * a - 0.0638541728 * b;
     const double n = light - 0.0894841775 * a - 1.2914855480 * b, l3 = l * l * l, m3 = m * m * m, n3 = n * n * n;
     return (colour){to_byte(4.0767416621 * l3 - 3.3077115913 * m3 + 0.2309699292 * n3),
                     to_byte(-1.2684380046 * l3 + 2.6097574011 * m3 - 0.3413193965 * n3),
                     to_byte(-0.0041960863 * l3 - 0.7034186147 * m3 + 1.7076147010 * n3)};
+}
+
+colour image_map(double s)
+{
+    s = s > 0 ? s < 1 ? s : 1 : 0;
+    const double u = 2 * s - 1;
+    /* violet (hue 300 degrees) through blue and green to yellow (hue 105); chroma stays inside what a screen can show */
+    return from_oklab(0.25 + 0.67 * s, 0.085 + 0.045 * u * u, 300 - 195 * s);
+}
+
+colour image_map_signed(double s)
+{
+    s = s > 0 ? s < 1 ? s : 1 : 0;
+    const double u = fabs(2 * s - 1);
+    return from_oklab(0.88 - 0.45 * u, u * (0.2 - 0.06 * u), s < 0.5 ? 258 : 27);
 }
 
 /* ---- PNG ---- */

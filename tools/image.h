@@ -32,6 +32,8 @@ int image_text_height(int scale);
 
 /* Perceptually uniform: lightness rises evenly from dark violet to bright yellow (OKLab, Ottosson 2020); s in 0..1. */
 colour image_map(double s);
+/* For values of both signs: blue below, light grey at s = 0.5, red above, evenly darker to both ends. */
+colour image_map_signed(double s);
 
 /* with libpng where the program was built with -DHAVE_LIBPNG, else uncompressed by itself; false if writing failed */
 bool image_write_png(const image *m, FILE *f);

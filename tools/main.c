@@ -20,6 +20,10 @@ static const struct command {
     {"export", "a dump as a table or for ParaView", cmd_export},
     {"render", "a dump as a picture", cmd_render},
     {"history", "tables and figures from histories", cmd_history},
+    {"dispersion", "waves on a lattice of particles against exact ones", cmd_dispersion},
+    {"profile", "fields of a dump along a line or an ellipse", cmd_profile},
+    {"fragments", "the pieces into which solids have broken", cmd_fragments},
+    {"gradykipp", "sizes of fragments by Grady and Kipp's statistics", cmd_gradykipp},
 };
 #define COMMANDS (sizeof commands / sizeof *commands)
 
@@ -28,8 +32,8 @@ static int help(void)
     printf("sph: smoothed particle hydrodynamics in fixed memory, with the same bits everywhere\n\n"
            "usage: sph COMMAND [arguments]     sph COMMAND --help says more\n\n");
     for (size_t i = 0; i < COMMANDS; i++)
-        printf("  %-9s %s\n", commands[i].name, commands[i].what);
-    printf("  %-9s this text, or that of a command\n", "help");
+        printf("  %-10s %s\n", commands[i].name, commands[i].what);
+    printf("  %-10s this text, or that of a command\n", "help");
     printf("\nexit code: 0 fine; 1 no, differs, or failed; 2 wrong usage\n");
     return HOST_FINE;
 }

@@ -162,9 +162,10 @@ static double half_width(const sph_sim *sim, const double *p, double at, double 
     return side[0] > 0 && side[1] > 0 ? (side[0] + side[1]) * bin : 0;
 }
 
-static const char *const column[] = {"time_s",        "right_x_cm",     "left_x_cm",      "right_exact_cm", "left_exact_cm",
-                                     "right_small_cm", "left_small_cm", "right_v_c0",     "left_v_c0",      "right_width_cm",
-                                     "left_width_cm", "kinetic_J/m",    "elastic_J/m",    "internal_J/m",   "dissipated_J/m"};
+static const char *const column[] = {"time_cm/c0",     "right_x_cm",    "left_x_cm",     "right_exact_cm", "left_exact_cm",
+                                     "right_small_cm", "left_small_cm", "right_v_c0",    "left_v_c0",      "right_width_cm",
+                                     "left_width_cm",  "kinetic_K.cm2", "elastic_K.cm2", "compression_K.cm2",
+                                     "dissipated_K.cm2"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {

@@ -3,7 +3,8 @@
    tests and on a bare machine alike. It is a pure function of its parameters: it keeps no state of its own.
 
    To run one: fill p with the parameters' values, configure, add what the host knows (port, threads), sph_init, build,
-   then step; call scene_between after every step (it ends the damping when the scene asks for that). */
+   then step; call scene_between after every step (it ends the damping when the scene asks for that). p must stay while the
+   simulation lives: motions read it. */
 #ifndef EXAMPLES_SCENE_H
 #define EXAMPLES_SCENE_H
 

@@ -2,28 +2,30 @@
 /* scenes.c: the table of scenes of each dimension, and what their set-ups share. */
 #include "scene.h"
 
+/* the one table of scenes: a line here and a file of that name */
 #if SPH_DIM == 1
-#define scene_hydrostatic SPH_NAME(scene_hydrostatic)
-extern const scene scene_hydrostatic;
-const scene *const scene_table[] = {&scene_hydrostatic, NULL};
+#define SCENE_LIST(X) X(hydrostatic)
 #elif SPH_DIM == 2
-#define scene_dam_break SPH_NAME(scene_dam_break)
-#define scene_still_tank SPH_NAME(scene_still_tank)
-#define scene_standing_wave SPH_NAME(scene_standing_wave)
-#define scene_taylor_green SPH_NAME(scene_taylor_green)
-#define scene_elliptical_drop SPH_NAME(scene_elliptical_drop)
-#define scene_pulse SPH_NAME(scene_pulse)
-#define scene_lattice_box SPH_NAME(scene_lattice_box)
-extern const scene scene_dam_break, scene_still_tank, scene_standing_wave, scene_taylor_green, scene_elliptical_drop, scene_pulse,
-    scene_lattice_box;
-const scene *const scene_table[] = {&scene_dam_break,    &scene_still_tank,      &scene_standing_wave,
-                                    &scene_taylor_green, &scene_elliptical_drop, &scene_pulse,
-                                    &scene_lattice_box,  NULL};
+#define SCENE_LIST(X)                                                                                       \
+    X(dam_break)                                                                                            \
+    X(still_tank)                                                                                           \
+    X(standing_wave)                                                                                        \
+    X(taylor_green)                                                                                         \
+    X(elliptical_drop)                                                                                      \
+    X(plate)                                                                                                \
+    X(pulse)                                                                                                \
+    X(lattice_box)                                                                                          \
+    X(rings)                                                                                                \
+    X(tension)                                                                                              \
+    X(brittle)
 #else
-#define scene_dam_break_3d SPH_NAME(scene_dam_break_3d)
-extern const scene scene_dam_break_3d;
-const scene *const scene_table[] = {&scene_dam_break_3d, NULL};
+#define SCENE_LIST(X) X(dam_break_3d)
 #endif
+
+#define SCENE_DECLARED(name) extern const scene SPH_NAME(scene_##name);
+#define SCENE_ENTRY(name) &SPH_NAME(scene_##name),
+SCENE_LIST(SCENE_DECLARED)
+const scene *const scene_table[] = {SCENE_LIST(SCENE_ENTRY) NULL};
 
 sph_config scene_config(const double *p, double dx, double rho0, double sound_speed)
 {

@@ -49,4 +49,31 @@ static inline sph_solid solid_material(const double *p)
     return m;
 }
 
+/* The smallest distance between two particles in spacings, 10 without pairs nearer than that: where it falls well below 1,
+   particles clump. Particles come in slabs along the last axis, no thicker than twice what c says of its cells, so that a
+   particle further up than that ends the search. */
+static inline double solid_closest(const sph_sim *sim, const sph_config *c)
+{
+    const uint32_t n = sph_count(sim), up = SPH_DIM - 1;
+    const double reach = sph_kernel_support(c->kernel) * c->smoothing_length * (c->solid == SPH_TOTAL ? c->max_stretch : 1);
+    double least = 100 * c->spacing * c->spacing;
+    sph_particle a, b;
+    for (uint32_t i = 0; i < n; i++) {
+        (void)sph_get(sim, i, &a);
+        for (uint32_t j = i + 1; j < n; j++) {
+            (void)sph_get(sim, j, &b);
+            if (b.x[up] > a.x[up] + 2 * reach + 10 * c->spacing)
+                break;
+            double r2 = 0;
+            for (uint32_t k = 0; k < SPH_DIM; k++)
+                r2 += (a.x[k] - b.x[k]) * (a.x[k] - b.x[k]);
+            least = r2 < least ? r2 : least;
+        }
+    }
+    return __builtin_sqrt(least) / c->spacing;
+}
+
+/* microseconds of Gray's time unit in the rings of his section 6.1: 50 m/s are 5.87e-3 c0, so 1 cm/c0 is 1.174 of them */
+#define SOLID_MICROSECONDS (5.87e-3 * 1e4 / 50)
+
 #endif
