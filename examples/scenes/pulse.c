@@ -122,13 +122,14 @@ static double fit_crest(const sph_sim *sim, const double *p, double reach, doubl
     return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
 }
 
-/* place of the particle of largest v_x within a quarter of the length of `at` */
-static double fastest(const sph_sim *sim, const double *p, double at)
+/* place of the particle of largest v_x nearer to `at` than to `other`, where the other pulse is, or within half of w */
+static double fastest(const sph_sim *sim, const double *p, double at, double other)
 {
+    const double half = 0.5 * SCENE_ABS(apart(p, at, other)), near = 0.5 * width(p), side = half > near ? half : near;
     double most = -1e300, x = at;
     sph_particle q;
     for (uint32_t i = 0; i < sph_count(sim); i++)
-        if (sph_get(sim, i, &q) == SPH_OK && SCENE_ABS(apart(p, q.x[0], at)) < 0.25 * p[LENGTH] && q.v[0] > most) {
+        if (sph_get(sim, i, &q) == SPH_OK && SCENE_ABS(apart(p, q.x[0], at)) < side && q.v[0] > most) {
             most = q.v[0];
             x = at + apart(p, q.x[0], at);
         }
@@ -174,8 +175,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
     sph_get_totals(sim, &o);
     row[0] = t;
     for (int k = 0; k < 2; k++) { /* positions are not brought back into the sheet */
-        const double sign = k ? -1 : 1, small = middle + sign * speed_at(p, 1) * t;
-        double at = fastest(sim, p, small), v = 0;
+        const double sign = k ? -1 : 1, gone = sign * speed_at(p, 1) * t, small = middle + gone;
+        double at = fastest(sim, p, small, middle - gone), v = 0;
         for (int turn = 0; turn < 3; turn++)
             v = fit_crest(sim, p, reach, &at);
         row[1 + k] = at;
