@@ -86,7 +86,7 @@ def g13(quick, add):
         return Run("lattice_box", **{"lambda": factor}, lattice=lattice, h=h, **more, **common)
 
     # compression; "nearest": the smallest distance of two particles, "hole": the largest of a place from a particle (square
-    # lattice 0.707, face centred 0.625)
+    # lattice 0.707, face centred 0.55 at the places looked at)
     for h in (1.0, 1.5):
         run = Run("lattice_box", rho=1.1, h=h, **common)
         target = (">=", 0.9) if h == 1 else None
