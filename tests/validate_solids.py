@@ -8,7 +8,7 @@ that takes add(name, unit, target, runs, figure): the figure is called with the 
 None, a number that the figure may not exceed, or a pair such as (">=", 3). Long studies: --only WORD --keep goes on where an
 earlier call was ended. Times are in cm/c0 and lengths in cm unless a row says otherwise.
 """
-import sys
+import csv, io, math, subprocess, sys
 
 from validate import Run, interpolate, main, read_table, slope, zero_crossings
 
@@ -105,6 +105,171 @@ def late(run):
 
 
 GROUPS = [plates]
+
+
+# ---- G12: a longitudinal pulse (Gray 2001, 5.6.1) ----
+
+PULSE_SPEED = math.sqrt(1 + 4 * 0.22 / 3)  # of small waves; a round of the sheet takes 200/PULSE_SPEED
+
+
+def pulse_speed(run, side):
+    """Slope of a crest's way between 0.15 and 0.4 of a round: apart, and not yet at the seam."""
+    t, x = run.col("time"), run.col(f"{side}_x")
+    part = [i for i in range(len(t)) if 0.15 <= t[i] * PULSE_SPEED / 200 <= 0.4]
+    return abs(slope([t[i] for i in part], [x[i] for i in part]))
+
+
+def pulse_mean_speed(run):
+    """Of both pulses: what a finite amplitude adds to one it takes from the other, to first order."""
+    return 0.5 * (pulse_speed(run, "right") + pulse_speed(run, "left"))
+
+
+def pulse_off_exact(run):
+    """Largest error in percent of the two crests' speeds against those of simple waves of that amplitude."""
+    t = run.col("time")
+    exact = {side: abs(slope(t, run.col(f"{side}_exact"))) for side in ("right", "left")}
+    return 100 * max(abs(pulse_speed(run, side) / exact[side] - 1) for side in exact)
+
+
+def pulse_loss(run):
+    """Percent of its amplitude that the weaker pulse has lost after 0.88 of a round; they start with half of 0.05."""
+    t = run.col("time")
+    i = min(range(len(t)), key=lambda i: abs(t[i] * PULSE_SPEED / 200 - 0.88))
+    half = 0.5 * max(run.col("right_v")[0], run.col("left_v")[0])
+    return 100 * (1 - min(run.col("right_v")[i], run.col("left_v")[i]) / half)
+
+
+def g12(quick, add):
+    printed = {1.0: 1.164, 1.3: 1.148, 1.5: 1.131}
+    common = {"height": 14, "duration": 0.9, "frames": 90}
+    for h in (1.0, 1.3, 1.5):
+        run = Run("pulse", form="total", h=h, alpha=0.02, **common)
+        name = f"G12 total alpha 0.02 h {h}"
+        add(f"{name} mean speed", "% off 1.137", 1.0, [run], lambda r: 100 * abs(pulse_mean_speed(r) / PULSE_SPEED - 1))
+        add(f"{name} crests", "% off simple waves", 1.0, [run], pulse_off_exact)
+        add(f"{name} amplitude lost", "%", 10.0, [run], pulse_loss)
+        run = Run("pulse", form="updated", h=h, alpha=0.5, **common)
+        name = f"G12 updated alpha 0.5 h {h}"
+        add(f"{name} mean speed (Gray {printed[h]})", "cm c0/cm", None, [run], pulse_mean_speed)
+        add(f"{name} speed to the right", "cm c0/cm", None, [run], lambda r: pulse_speed(r, "right"))
+        add(f"{name} amplitude lost (Gray 40)", "%", None, [run], pulse_loss)
+        if quick:
+            continue
+        for form, repulsion in (("updated", "none"), ("updated", "principal"), ("corrected", "none")):
+            run = Run("pulse", form=form, h=h, alpha=0.1, repulsion=repulsion, **common)
+            name = f"G12 {form} alpha 0.1{' epsilon 0.3' if repulsion != 'none' else ''} h {h}"
+            add(f"{name} crests", "% off simple waves", None, [run], pulse_off_exact)
+            add(f"{name} amplitude lost", "%", None, [run], pulse_loss)
+
+
+GROUPS.append(g12)
+
+
+# ---- G13: a periodic box of particles in compression and tension (Gray 2001, 5.6.5, 5.6.6) ----
+
+def g13(quick, add):
+    common = {"steps": 1000 if quick else 10000, "end": 1000, "every": 5}
+
+    def last(column):
+        return lambda r: r.col(column)[-1]
+
+    def tension(factor, lattice, h, **more):
+        return Run("lattice_box", **{"lambda": factor}, lattice=lattice, h=h, **more, **common)
+
+    # compression; "nearest": the smallest distance of two particles, "hole": the largest of a place from a particle (square
+    # lattice 0.707, face centred 0.55 at the places looked at)
+    for h in (1.0, 1.5):
+        run = Run("lattice_box", rho=1.1, h=h, **common)
+        target = (">=", 0.9) if h == 1 else None
+        add(f"G13 rho 1.1 h {h} face centred", "of the particles", target, [run], last("face_centred"))
+        add(f"G13 rho 1.1 h {h} nearest", "dx", (">=", 0.7), [run], last("nearest_min"))
+    # tension: clumps without artificial stress
+    for factor in (0.99, 0.95, 0.9):
+        run = tension(factor, "square", 1.0)
+        add(f"G13 lambda {factor} h 1.0 epsilon 0 nearest", "dx", None, [run], last("nearest_min"))
+        target = (">=", 0.5) if factor == 0.95 else None
+        add(f"G13 lambda {factor} h 1.0 epsilon 0 in fours", "of the particles", target, [run], last("fours"))
+        add(f"G13 lambda {factor} h 1.0 epsilon 0 hole", "dx", (">=", 1.2) if factor == 0.9 else None, [run], last("hole"))
+        for lattice, h in (("square", 1.0), ("square", 1.5), ("shifted_x", 1.5)):
+            if factor == 0.99 and h == 1.5:
+                continue
+            run = tension(factor, lattice, h, repulsion="principal")
+            name = f"G13 lambda {factor} {lattice} h {h} epsilon 0.3"
+            add(f"{name} nearest", "dx", (">=", 0.9), [run], last("nearest_min"))
+            add(f"{name} hole", "dx", ("<=", 0.9), [run], last("hole"))
+            add(f"{name} stress kept", "of 1 - lambda", None, [run], lambda r, f=factor: r.col("stress_mean")[-1] / (1 - f))
+    for name, more in (("components epsilon 0.3", {"repulsion": "components"}),
+                       ("corrected epsilon 0", {"form": "corrected"}), ("total epsilon 0", {"form": "total"})):
+        run = tension(0.9, "square", 1.0, **more)
+        ours = (">=", 0.9) if "total" in name else None
+        add(f"G13 lambda 0.9 square h 1.0 {name} nearest", "dx", ours, [run], last("nearest_min"))
+        add(f"G13 lambda 0.9 square h 1.0 {name} hole", "dx", None, [run], last("hole"))
+
+
+GROUPS.append(g13)
+
+
+# ---- G23: frequencies and growth rates of single waves against the dispersion relation (Gray 2001, 5.6.2, appendix B) ----
+
+SIDE, SPAN = 12, 4  # spacings of the box; rows of history between the amplitudes that are compared
+
+
+def wave_run(lattice, h, state, waves, direction):
+    """state: rho, lambda, epsilon. The artificial stress changes with the wave, as it does in the relation."""
+    rho, factor, epsilon = state
+    return Run("lattice_box", lattice=lattice, h=h, rho=rho, **{"lambda": factor}, epsilon=epsilon, repulsion="principal",
+               waves_x=waves[0], waves_y=waves[1], direction=direction, n=SIDE, side=SIDE, noise=0, wave=1e-6,
+               viscosity="inviscid", precision="double", dt=0.0078125, every=0.125, end=8)
+
+
+def measured_waves(along, over):
+    """omega^2 of the two waves of one wave vector, from a run that begins longitudinal and one that begins transverse: the
+    amplitudes obey u(t + d) + u(t - d) = 2 C u(t), where C has eigenvalues cos(omega d)."""
+    bu, uu = [[0, 0], [0, 0]], [[0, 0], [0, 0]]
+    for run in (along, over):
+        u = list(zip(run.col("along"), run.col("across")))
+        for k in range(SPAN, len(u) - SPAN):
+            for i in range(2):
+                for j in range(2):
+                    bu[i][j] += 0.5 * (u[k + SPAN][i] + u[k - SPAN][i]) * u[k][j]
+                    uu[i][j] += u[k][i] * u[k][j]
+    det = uu[0][0] * uu[1][1] - uu[0][1] * uu[1][0]
+    inverse = [[uu[1][1] / det, -uu[0][1] / det], [-uu[1][0] / det, uu[0][0] / det]]
+    c = [[sum(bu[i][k] * inverse[k][j] for k in range(2)) for j in range(2)] for i in range(2)]
+    mean, half = 0.5 * (c[0][0] + c[1][1]), 0.5 * (c[0][0] - c[1][1])
+    root = math.sqrt(half * half + c[0][1] * c[1][0])
+    d = SPAN * (along.col("time")[-1] - along.col("time")[0]) / (len(along.col("time")) - 1)
+    return sorted((math.acos(x) / d) ** 2 if abs(x) <= 1 else -(math.acosh(x) / d) ** 2 for x in (mean - root, mean + root))
+
+
+def theory_of_waves(tool, lattice, h, state, waves):
+    rho, factor, epsilon = state
+    kx, ky = 2 * waves[0] / SIDE, 2 * waves[1] / SIDE
+    options = {"lattice": lattice, "h": h, "rho": rho, "c": math.sqrt(factor), "pressure": factor * rho - 1, "mu": 0.22,
+               "epsilon": epsilon, "angle": math.degrees(math.atan2(ky, kx)), "kmax": math.hypot(kx, ky), "points": 2}
+    text = subprocess.run([tool, "dispersion", "curve"] + [f"{k}={v}" for k, v in options.items()], stdout=subprocess.PIPE,
+                          text=True, check=True).stdout
+    rows = list(csv.DictReader(line for line in io.StringIO(text) if not line.startswith("#")))
+    return sorted((float(rows[-1]["omega2_long"]), float(rows[-1]["omega2_trans"])))
+
+
+def g23(quick, add):
+    for lattice in ("square",) if quick else ("square", "shifted_x", "shifted_y"):
+        for h in (1.0, 1.5):
+            for state in ((1.1, 1.0, 0.0), (1.0, 0.9, 0.0), (1.0, 0.9, 0.3)):
+                for waves in ((6, 0), (3, 0), (3, 3)):
+                    def figure(along, over, lattice=lattice, h=h, state=state, waves=waves):
+                        theory = theory_of_waves(along.tool, lattice, h, state, waves)
+                        pairs = list(zip(measured_waves(along, over), theory))
+                        if any((m < 0) != (w < 0) for m, w in pairs):
+                            raise ValueError(f"one is stable, the other is not: {pairs}")
+                        return 100 * max(abs(math.sqrt(m / w) - 1) for m, w in pairs)
+                    runs = [wave_run(lattice, h, state, waves, d) for d in ("longitudinal", "transverse")]
+                    stress = "rho {} lambda {} epsilon {}".format(*state)
+                    add(f"G23 {lattice} h {h} {stress} k {waves[0] / 6:g}, {waves[1] / 6:g} pi/dx", "% off the relation", 1.0, runs, figure)
+
+
+GROUPS.append(g23)
 
 
 def cases(quick):

@@ -13,6 +13,8 @@
     X(taylor_green)                                                                                         \
     X(elliptical_drop)                                                                                      \
     X(plate)                                                                                                \
+    X(pulse)                                                                                                \
+    X(lattice_box)                                                                                          \
     X(rings)                                                                                                \
     X(tension)                                                                                              \
     X(brittle)
