@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* rings.c: two elastic rings run into each other and rebound (Swegle 1992; Gray 2001, section 6.1). Radii 3 and 4 cm, plane
-   strain, mu 0.22, each at 5.87e-3 c0 (50 m/s); they touch at t = 0. Gray, with the cubic spline, h = 1.5 dx, alpha 0.5 and
+   strain, mu 0.22, each at 0.0587 c0 (50 m/s); they touch at t = 0. Gray, with the cubic spline, h = 1.5 dx, alpha 0.5 and
    the updated form, found them broken without artificial stress and rebounding with it. */
 #include "solid.h"
 #if SPH_DIM == 2
