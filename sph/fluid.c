@@ -74,11 +74,12 @@ void sph_make_factors(sph_sim *sim)
     f->reach2 = (sph_real)(support * support * h * h * 1.0001); /* the scalar form skips beyond: all terms are 0 there */
     f->slope = (sph_real)slope;
     f->value = (sph_real)value;
-    if (sph_repels(c)) {
+    if (sph_repels(c) || sph_is_total(c)) {
         double at, dw;
         sph_kernel_value(c->kernel, c->spacing, h, &at, &dw);
-        f->inv_wdx = (sph_real)(value / at);
+        f->inv_wdx = at > 0 ? (sph_real)(value / at) : 0;
         f->repulsion = (sph_real)c->stress_epsilon;
+        f->contact = (sph_real)(2 * c->sound_speed * c->sound_speed * (sph_weak_scheme(c->scheme) ? c->rho0 : 1 / c->rho0));
     }
     /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = (rho_i + rho_j) |mu'| */
     f->av_alpha = (sph_real)(2 * h * c->alpha * c->sound_speed);
@@ -218,12 +219,18 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
     const vreal r2 = dot(dx, dx);
     vreal k2 = r2;
 #if SPH_HAS_TOTAL
+    vint apart = v_set_int(0); /* of two bodies: no stress between them */
     if (c->solid && c->total && !wall) {
-        const vint same = v_less(v_set((sph_real)0.5), h->body) & v_equal(h->body, v_load(th->solid.body + j));
+        const vreal other = v_load(th->solid.body + j), half = v_set((sph_real)0.5);
+        const vint same = v_less(half, h->body) & v_equal(h->body, other);
+        apart = v_less(half, h->body) & v_less(half, other) & ~same;
+        vreal to[SPH_DIM];
         SPH_UNROLL
-        for (int k = 0; k < SPH_DIM; k++)
-            kx[k] = v_select(same, h->k[k] - v_load(th->solid.k[k] + j), dx[k]);
-        k2 = dot(kx, kx);
+        for (int k = 0; k < SPH_DIM; k++) {
+            to[k] = v_select(same, h->k[k] - v_load(th->solid.k[k] + j), dx[k]);
+            kx[k] = v_where(~apart, to[k]);
+        }
+        k2 = dot(to, to);
     }
 #endif
 #if SPH_SCALAR
@@ -265,6 +272,12 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         force = (aj - h->a) * h->iv * iv * mg;
     else
         force = (aj + h->a) * h->iv * iv * mg;
+#if SPH_HAS_TOTAL
+    if (c->solid && c->total && !wall) { /* contact of two bodies: see SPH_TOTAL in sph.h */
+        const vreal push = v_where(apart, v_pos(k_value(c->kernel, q) * f->inv_wdx - 1)) * f->contact;
+        force = weak ? push * h->iv * iv * mg : push * mg;
+    }
+#endif
 
     /* viscosity; with a ghost wall the mirror velocity multiplies v_ij by beta = 1 + min(depth/distance, 1/2) */
     const vreal inv = viscous || diffusive ? 1 / ((r2 + f->eta) * (h->rho + rho)) : r2;

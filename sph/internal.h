@@ -100,6 +100,7 @@ typedef struct sph_peaks {
 typedef struct sph_factors {
     sph_real inv_h, eta, reach, reach2, slope, value;
     sph_real inv_wdx, repulsion; /* artificial stress: 1/(W(dx) without its scale), epsilon */
+    sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], gravity[SPH_DIM], small_p;
     bool rate_by_density, continuity, extras;
 } sph_factors;

@@ -130,8 +130,10 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
               the same work, T = -sigma M^-T/rho (Bonet & Lok 1999), so momentum and angular momentum stay. Costs a sweep.
               Where M is nearly singular (lone particles, lines of them) the plain form is taken.
    TOTAL      the same with K the vector in the reference position, for pairs of one body of which neither is fully damaged;
-              fixed neighbours, no tensile instability. Other pairs (contact) take K = x_ij. A particle may go half a domain's
-              length from where it began (else MOVED_TOO_FAR). */
+              fixed neighbours, no tensile instability. A particle may go half a domain's length from where it began (else
+              MOVED_TOO_FAR). Contact of two bodies: no stress is shared; they push each other along x_ij, nearer than dx, as
+              by a pressure rho0 c0^2 (W/W(dx) - 1) of the configuration in both: no adhesion, no friction but that of uneven
+              surfaces (and viscosity where that is asked for). Other pairs (rubble, fluid) take K = x_ij. */
 enum { SPH_NO_SOLID, SPH_UPDATED, SPH_CORRECTED, SPH_TOTAL, SPH_SOLIDS };
 
 /* Yield. VON_MISES: where sqrt(3 J2) exceeds Y = yield + hardening * plastic strain, S is returned along the radius. With

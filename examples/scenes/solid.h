@@ -31,7 +31,8 @@ static inline sph_config solid_config(const double *p, double dx)
 {
     sph_config c = scene_config(p, dx, 1, 1);
     c.solid = (uint32_t)p[SOLID_FORM] + 1;
-    c.artificial_stress = p[SOLID_EPSILON] > 0 && c.solid != SPH_TOTAL ? (uint32_t)p[SOLID_REPULSION] : SPH_NO_ARTIFICIAL_STRESS;
+    const bool repels = p[SOLID_EPSILON] > 0 && c.solid != SPH_TOTAL;
+    c.artificial_stress = repels ? (uint32_t)p[SOLID_REPULSION] : SPH_NO_ARTIFICIAL_STRESS;
     c.stress_epsilon = p[SOLID_EPSILON];
     c.stress_exponent = (uint32_t)p[SOLID_EXPONENT];
     c.xsph_strain = p[SOLID_STRAIN] != 0;
@@ -73,7 +74,7 @@ static inline double solid_closest(const sph_sim *sim, const sph_config *c)
     return __builtin_sqrt(least) / c->spacing;
 }
 
-/* microseconds of Gray's time unit in the rings of his section 6.1: 50 m/s are 5.87e-3 c0, so 1 cm/c0 is 1.174 of them */
-#define SOLID_MICROSECONDS (5.87e-3 * 1e4 / 50)
+/* microseconds of Gray's time unit in the rings of his section 6.1: 50 m/s are 0.0587 c0 (rings.c) */
+#define SOLID_MICROSECONDS (0.0587 * 1e4 / 50)
 
 #endif
