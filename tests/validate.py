@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 """validate.py: runs the water cases and holds them against experiments, volume-of-fluid and exact solutions.
 
-usage: validate.py [--quick] [--jobs N] [--only WORD] [--tool build/sph]
+usage: validate.py [--quick] [--jobs N] [--only WORD] [--keep] [--tool build/sph]
 Each run is one command of the tool, printed with its figure, so that anybody can repeat it. Writes
 build/validate.csv (name,value,unit,target,ok) and prints the same as a table. Runs go in parallel; a row says what it
 rests on. References are in tests/refdata/, with their sources in the headers. Exit code 1 if a row with a target misses it.
+Run, main and the small figures serve validate_solids.py too.
 """
-import argparse, csv, math, os, subprocess, sys, time
+import argparse, csv, glob, math, os, subprocess, sys, time
 from concurrent.futures import ThreadPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-OUT = os.path.join("build", "validate")
 
 
 def read_table(name):
@@ -28,24 +28,43 @@ def interpolate(xs, ys, x):
 
 
 class Run:
-    """One command of the tool, and its history as columns."""
+    """One command of the tool, and its history as columns. With dump=picture its dumps are there too."""
+    out = os.path.join("build", "validate")
 
     def __init__(self, scene, **options):
         self.scene, self.options = scene, options
         self.name = "_".join([scene] + [f"{k}-{v}" for k, v in options.items()]).replace("/", "_").replace(".", "p")
-        self.columns, self.error, self.seconds = {}, None, 0.0
+        self.columns, self.error, self.seconds, self.tool = {}, None, 0.0, None
+
+    def prefix(self):
+        return os.path.join(self.out, self.name)
 
     def command(self, tool):
-        args = [f"{k}={v}" for k, v in self.options.items()]
-        return [tool, "run", self.scene] + args + [f"out={os.path.join(OUT, self.name)}", "dump=none"]
+        options = dict(self.options)
+        options.setdefault("dump", "none")
+        return [tool, "run", self.scene] + [f"{k}={v}" for k, v in options.items()] + [f"out={self.prefix()}"]
 
-    def go(self, tool):
-        start = time.time()
-        done = subprocess.run(self.command(tool), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    def dumps(self):
+        return sorted(glob.glob(glob.escape(self.prefix()) + "_[0-9]*.sph"))
+
+    def go(self, tool, keep=False):
+        """keep: a run that was finished before by the same command is not made again"""
+        start, self.tool = time.time(), tool
+        line, note = " ".join(self.command(tool)), self.prefix() + ".done"
+        kept = keep and os.path.exists(note) and open(note).read().splitlines()
+        if kept and kept[0] == line:
+            self.error = kept[1] if len(kept) > 1 else None
+        else:
+            for old in self.dumps():
+                os.remove(old)
+            done = subprocess.run(self.command(tool), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            if done.returncode:
+                said = done.stdout.strip().splitlines() or ["no output"]
+                self.error = next((s for s in said if s.startswith("sph run: step")), said[-1])
+            with open(note, "w") as f:
+                f.write("\n".join([line] + ([self.error] if self.error else [])) + "\n")
         self.seconds = time.time() - start
-        if done.returncode:
-            self.error = (done.stdout.strip().splitlines() or ["no output"])[-1]
-        path = os.path.join(OUT, self.name + ".csv")
+        path = self.prefix() + ".csv"
         if os.path.exists(path):
             with open(path) as f:
                 rows = list(csv.reader(line for line in f if not line.startswith("#")))
@@ -216,48 +235,62 @@ def standing_decay(run):
     return rate(y) / rate(e)
 
 
-def main():
-    p = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+def bound(target):
+    """A target as an operator and a number: 3 is (<=, 3); others are given as such pairs."""
+    return target if isinstance(target, tuple) else ("<=", target)
+
+
+def meets(value, target):
+    sign, limit = bound(target)
+    return {"<=": value <= limit, "<": value < limit, ">=": value >= limit}[sign]
+
+
+def main(cases, name, doc):
+    """Makes the runs that the rows ask for, in parallel, and writes build/NAME.csv."""
+    p = argparse.ArgumentParser(description=doc.split("\n")[0])
     p.add_argument("--quick", action="store_true", help="the small sizes only")
     p.add_argument("--jobs", type=int, default=2)
     p.add_argument("--only", default="", help="rows whose name contains this word")
+    p.add_argument("--keep", action="store_true", help="take runs that an earlier call finished")
     p.add_argument("--tool", default=os.path.join("build", "sph"))
     a = p.parse_args()
     if not os.path.exists(a.tool):
-        sys.exit(f"validate: {a.tool} is not there; run make first")
-    os.makedirs(OUT, exist_ok=True)
+        sys.exit(f"{name}: {a.tool} is not there; run make first")
+    Run.out = os.path.join("build", name)
+    os.makedirs(Run.out, exist_ok=True)
     rows = [r for r in cases(a.quick) if a.only in r[0]]
     runs = {r.name: r for row in rows for r in row[3]}
     for row in rows:  # equal runs are made once
         row[3][:] = [runs[r.name] for r in row[3]]
     todo, start, done = list(runs.values()), time.time(), 0
     with ThreadPoolExecutor(a.jobs) as pool:
-        for run in pool.map(lambda r: (r.go(a.tool), r)[1], todo):
+        for run in pool.map(lambda r: (r.go(a.tool, a.keep), r)[1], todo):
             done += 1
             left = (time.time() - start) / done * (len(todo) - done)
             print(f"[{done}/{len(todo)}] {run.name}: {run.error or 'done'} in {run.seconds:.0f} s, about {left:.0f} s left",
                   file=sys.stderr, flush=True)
     missed, lines = 0, []
-    for name, unit, target, rr, figure in rows:
+    for row, unit, target, rr, figure in rows:
         try:
             value = figure(*rr)
-            ok = "" if target is None else "yes" if value <= target else "no"
+            ok = "" if target is None else "yes" if meets(value, target) else "no"
             text = f"{value:.4g}"
         except (KeyError, ValueError, IndexError, TypeError, ZeroDivisionError) as e:
             text, ok = "failed", "no"
-            print(f"validate: {name}: {'; '.join(str(r.error) for r in rr if r.error) or e}", file=sys.stderr)
+            print(f"{name}: {row}: {'; '.join(str(r.error) for r in rr if r.error) or e}", file=sys.stderr)
         missed += ok == "no"
-        lines.append((name, text, unit, "" if target is None else f"<= {target:g}", ok))
-    with open("build/validate.csv.tmp", "w") as f:
+        lines.append((row, text, unit, "" if target is None else "{} {:g}".format(*bound(target)), ok))
+    path = os.path.join("build", name + ".csv")
+    with open(path + ".tmp", "w") as f:
         w = csv.writer(f, lineterminator="\n")
         w.writerow(["name", "value", "unit", "target", "ok"])
         w.writerows(lines)
-    os.replace("build/validate.csv.tmp", "build/validate.csv")
+    os.replace(path + ".tmp", path)
     for line in lines:
         print(f"{line[0]:58} {line[1]:>10} {line[2]:24} {line[3]:8} {line[4]}")
-    print(f"validate: {len(lines)} rows, {missed} missed; build/validate.csv")
+    print(f"{name}: {len(lines)} rows, {missed} missed; {path}")
     return 1 if missed else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(cases, "validate", __doc__))
