@@ -33,7 +33,7 @@ static void every_scene_runs(void **state)
                 fail_msg("%s: column %s is not finite", s->name, s->column[k]);
         sph_totals t;
         sph_get_totals(sim, &t);
-        assert_true(t.fluid > 0 && t.max_speed < c.sound_speed);
+        assert_true(t.fluid + t.solid > 0 && t.max_speed < c.sound_speed);
         free(p);
         assert_int_equal(free_sims(NULL), 0);
     }
