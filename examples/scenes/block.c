@@ -60,7 +60,7 @@ static double hoop(const sph_sim *sim, const stretch *b, double p1, double gas)
     double sum = 0, s[3];
     for (int k = 0; k < 2; k++) {
         const double at[2] = {0, k ? b->hole.radius[1] : -b->hole.radius[1]};
-        stretch_sample(sim, b, at, 3 * b->dx, 0, s);
+        stretch_sample(sim, b, at, 3 * b->dx, s);
         sum += s[0] / 2;
     }
     const double exact = 3.0546 * p1 + gas;

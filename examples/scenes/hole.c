@@ -6,26 +6,26 @@
 #include "stretch.h"
 #if SPH_DIM == 2
 
-enum { N = STRETCH_COMMON, SIZE, SQUARE, REACH, SKIP, RINGS, SETTLE, PARAMS };
+enum { N = STRETCH_COMMON, SIZE, SQUARE, SKIP, OUT, LATTICE, SETTLE, PARAMS };
 #define STATIONS 19 /* on the quarter of the rim, every 5 degrees */
 
 static const scene_param param[PARAMS] = {
-    SOLID_PARAMS(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0.5, 0),
-    STRETCH_PARAMS(5e-6, 10, 40),
+    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0.5, 0, 0.99),
+    STRETCH_PARAMS(5e-6, 7, 20),
     {"n", "-", "particles across the block, an even number", 140, 20, 4000, SCENE_WHOLE},
     {"size", "cm", "edge of the block", 7, 0.1, 1e3, SCENE_NUMBER},
     {"square", "cm^2", "radius of the hole, squared", 0.3125, 1e-6, 1e5, SCENE_NUMBER},
-    {"reach", "dx", "of the fit that takes the stress to the rim", 3, 2, 10, SCENE_NUMBER},
-    {"skip", "dx", "the fit leaves out what is nearer to the rim", 0, 0, 10, SCENE_NUMBER},
-    {"rings", "-", "rings of particles around the hole; 0: the lattice is square up to the rim", 0, 0, 100, SCENE_WHOLE},
-    {"settle", "cm/c0", "how long the block comes to rest after the pull", 60, 0, 1e6, SCENE_NUMBER},
+    {"skip", "dx", "the fit that takes the stress to the rim leaves out what is nearer", 1, 0, 10, SCENE_NUMBER},
+    {"fit", "a", "radius to which that fit goes", 3, 1.5, 6, SCENE_NUMBER},
+    {"lattice", "-", "square right up to the hole, which then has steps, or bent round it: square bent", 1, 0, 1, SCENE_CHOICE},
+    {"settle", "cm/c0", "how long the block comes to rest after the pull", 30, 0, 1e6, SCENE_NUMBER},
 };
 
 static stretch block(const double *p)
 {
     const double a = __builtin_sqrt(p[SQUARE]), dx = p[SIZE] / p[N];
     return (stretch){.lo = {0, 0}, .hi = {p[SIZE] / 2, p[SIZE] / 2}, .dx = dx, .room = 0.02 * p[SIZE] + 4 * dx, .half = true,
-                     .quarter = true, .has_hole = true, .hole = {{0, 0}, {a, a}}, .rings = (uint32_t)p[RINGS]};
+                     .quarter = true, .has_hole = true, .hole = {{0, 0}, {a, a}}, .bent = p[LATTICE] != 0};
 }
 
 static void configure(const double *p, sph_config *c)
@@ -60,11 +60,9 @@ static void history(const sph_sim *sim, const double *p, double *row)
     row[4] = o.elastic + o.internal;
     row[5] = stretch_peak(sim, &b, 0) / unit;
     row[6] = row[7] = 0;
+    stretch_rim(sim, &b, p[SKIP] * b.dx, p[OUT] * a, STATIONS, row + 8);
     for (int k = 0; k < STATIONS; k++) {
-        const double angle = k * (SCENE_PI / 2 / (STATIONS - 1)), at[2] = {a * sph_cos(angle), a * sph_sin(angle)};
-        double s[3];
-        stretch_sample(sim, &b, at, p[REACH] * b.dx, p[SKIP] * b.dx, s);
-        row[8 + k] = (s[0] + s[1]) / unit;
+        row[8 + k] /= unit;
         if (row[8 + k] > row[6]) {
             row[6] = row[8 + k];
             row[7] = 5 * k;

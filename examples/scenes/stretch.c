@@ -66,29 +66,91 @@ static void to_left(void *ctx, double t, double *x, double *v)
     v[0] = -speed_at(ctx, t);
 }
 
-/* rings of particles dx apart around the hole in the rock that is there */
-static sph_status add_rings(sph_sim *sim, uint32_t set, const stretch *b)
+/* ---- a lattice bent round a circular hole ---- */
+
+/* The square lattice is made of square rings about the origin; here ring number k >= first lies between the curves k and k + 1.
+   The first curve is the circle, the last the square, those between lie between; each holds the area of its square (the
+   difference of the first is shared out), and the particles of a ring have equal parts of its area. So the particles stand as
+   regularly as on the lattice, each on an area of dx^2, and the hole has no steps. */
+typedef struct bent {
+    uint32_t first, last; /* curves */
+    double dx, a;
+} bent;
+enum { FINE = 256 }; /* steps of an octant */
+
+static bent bend(const stretch *b)
 {
-    const double turn = b->half && b->quarter ? SCENE_PI / 2 : b->half ? SCENE_PI : 2 * SCENE_PI, from = b->quarter ? 0 : -SCENE_PI / 2;
-    for (uint32_t k = 0; k < b->rings; k++) {
-        const double r = b->hole.radius[0] + (k + 0.5) * b->dx;
-        const uint32_t n = (uint32_t)(turn * r / b->dx + 0.5);
-        for (uint32_t j = 0; j < n; j++) {
-            const double angle = from + turn * (j + 0.5) / n;
-            const double x[2] = {b->hole.centre[0] + r * sph_cos(angle), b->hole.centre[1] + r * sph_sin(angle)};
-            const sph_status st = sph_add_particle(sim, set, x, NULL, 0, NULL);
-            if (st)
-                return st;
-        }
+    const double side = b->hole.radius[0] * 0.88622692545275801; /* sqrt(pi)/2: of the quarter's square */
+    const uint32_t first = (uint32_t)(side / b->dx + 0.5);
+    return (bent){first, 3 * first, b->dx, b->hole.radius[0]};
+}
+
+static double area(const bent *o, double k)
+{
+    const double a = SCENE_PI / 4 * o->a * o->a, l = o->last * o->dx, f = o->first * o->dx, x = k * o->dx;
+    return a + (x * x - f * f) * (l * l - a) / (l * l - f * f);
+}
+
+/* radius of curve k at the angle x pi/4, but for its size */
+static double curve(const bent *o, uint32_t k, double x)
+{
+    const double s = (double)(k - o->first) / (o->last - o->first), w = s * s * (3 - 2 * s);
+    return 1 - w + w * 0.88622692545275801 / sph_cos(x * (SCENE_PI / 4));
+}
+
+static sph_status add_ring(sph_sim *sim, uint32_t set, const bent *o, uint32_t k)
+{
+    double size[2], sum[2] = {0, 0}, inner[FINE + 1], outer[FINE + 1], part[FINE + 1];
+    for (int i = 0; i <= FINE; i++) {
+        inner[i] = curve(o, k, (double)i / FINE);
+        outer[i] = curve(o, k + 1, (double)i / FINE);
+        const double w = (i == 0 || i == FINE ? 0.5 : 1) * (SCENE_PI / 4) / FINE;
+        sum[0] += w * inner[i] * inner[i];
+        sum[1] += w * outer[i] * outer[i];
+    }
+    for (uint32_t c = 0; c < 2; c++)
+        size[c] = __builtin_sqrt(area(o, k + c) / sum[c]);
+    part[0] = 0;
+    for (int i = 0; i <= FINE; i++) {
+        inner[i] *= size[0];
+        outer[i] *= size[1];
+        if (i > 0)
+            part[i] = part[i - 1] + outer[i] * outer[i] - inner[i] * inner[i] + outer[i - 1] * outer[i - 1] - inner[i - 1] * inner[i - 1];
+    }
+    for (uint32_t j = 0; j <= 2 * k; j++) { /* the one at 45 degrees is number k */
+        const uint32_t m = j <= k ? j : 2 * k - j;
+        const double want = part[FINE] * (m == k ? 1 : (m + 0.5) / (k + 0.5));
+        int i = 1;
+        while (i < FINE && part[i] < want)
+            i++;
+        const double f = (want - part[i - 1]) / (part[i] - part[i - 1]), angle = (i - 1 + f) * (SCENE_PI / 4) / FINE;
+        const double r = 0.5 * ((1 - f) * (inner[i - 1] + outer[i - 1]) + f * (inner[i] + outer[i]));
+        const double x = r * sph_cos(angle), y = r * sph_sin(angle), at[2] = {j <= k ? x : y, j <= k ? y : x};
+        const sph_status st = sph_add_particle(sim, set, at, NULL, 0, NULL);
+        if (st)
+            return st;
     }
     return SPH_OK;
+}
+
+/* a quarter of the rock, from the mirror planes to the corner `to` */
+static sph_status add_bent(sph_sim *sim, uint32_t set, const stretch *b, const double *to)
+{
+    const bent o = bend(b);
+    const double side = o.last * o.dx, right[2] = {side, 0}, right_to[2] = {to[0], side}, top[2] = {0, side};
+    for (uint32_t k = o.first; k < o.last; k++) {
+        const sph_status st = add_ring(sim, set, &o, k);
+        if (st)
+            return st;
+    }
+    const sph_status st = sph_add_box(sim, set, right, right_to, NULL);
+    return st ? st : sph_add_box(sim, set, top, to, NULL);
 }
 
 sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const sph_solid *rock, const sph_flaws *flaws)
 {
     const double grip = p[STRETCH_GRIP] * b->dx, right[2] = {b->hi[0] - grip, b->lo[1]}, left[2] = {b->lo[0] + grip, b->hi[1]};
-    sph_ellipse hole = b->hole;
-    sph_shape s = {.hole = &hole, .holes = b->has_hole};
+    sph_shape s = {.hole = &b->hole, .holes = b->has_hole};
     sph_solid end = *rock;
     uint32_t set;
     sph_status st;
@@ -99,10 +161,8 @@ sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const 
     end.held = 1;
     end.motion = to_right;
     end.motion_ctx = (void *)p; // NOLINT: read only
-    for (int k = 0; k < 2; k++)
-        hole.radius[k] += b->rings * b->dx;
-    if ((st = sph_add_solid(sim, rock, &set, NULL)) != SPH_OK || (st = add_rings(sim, set, b)) != SPH_OK ||
-        (st = sph_add_shape(sim, set, &s)) != SPH_OK ||
+    if ((st = sph_add_solid(sim, rock, &set, NULL)) != SPH_OK ||
+        (st = b->bent ? add_bent(sim, set, b, s.hi) : sph_add_shape(sim, set, &s)) != SPH_OK ||
         (flaws && (st = sph_add_flaws(sim, set, flaws)) != SPH_OK) ||
         (st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK || (st = sph_add_box(sim, set, right, b->hi, NULL)) != SPH_OK)
         return st;
@@ -150,39 +210,51 @@ double stretch_peak(const sph_sim *sim, const stretch *b, double near)
     return most;
 }
 
-enum { TERMS = 6 };
+enum { TERMS = 6, MOST = 9, RIGHT = 3 };
 
-/* solves a f = b for 3 right-hand sides by elimination with pivots on the diagonal; false if it is nearly singular */
-static bool solve(double (*a)[TERMS], double (*f)[3])
+/* solves a f = b for so many unknowns and 3 right-hand sides by elimination with pivots on the diagonal (a is a matrix of normal
+   equations); false if it is nearly singular */
+static bool solve(int n, double (*a)[MOST], double (*f)[RIGHT])
 {
     const double least = 1e-9 * a[0][0];
-    for (int k = 0; k < TERMS; k++) {
+    for (int k = 0; k < n; k++) {
         if (!(a[k][k] > least))
             return false;
-        for (int i = k + 1; i < TERMS; i++) {
+        for (int i = k + 1; i < n; i++) {
             const double w = a[i][k] / a[k][k];
-            for (int j = k; j < TERMS; j++)
+            for (int j = k; j < n; j++)
                 a[i][j] -= w * a[k][j];
-            for (int c = 0; c < 3; c++)
+            for (int c = 0; c < RIGHT; c++)
                 f[i][c] -= w * f[k][c];
         }
     }
-    for (int k = TERMS - 1; k >= 0; k--)
-        for (int c = 0; c < 3; c++) {
-            for (int j = k + 1; j < TERMS; j++)
+    for (int k = n - 1; k >= 0; k--)
+        for (int c = 0; c < RIGHT; c++) {
+            for (int j = k + 1; j < n; j++)
                 f[k][c] -= a[k][j] * f[j][c];
             f[k][c] /= a[k][k];
         }
     return true;
 }
 
-void stretch_sample(const sph_sim *sim, const stretch *b, const double *at, double reach, double skip, double *stress)
+/* adds an equation of weight w */
+static void equation(int n, double (*a)[MOST], double (*f)[RIGHT], const double *term, const double *value, double w)
 {
-    double a[TERMS][TERMS] = {{0}}, f[TERMS][3] = {{0}}, nearest = 1e300;
+    for (int k = 0; k < n; k++) {
+        for (int l = 0; l < n; l++)
+            a[k][l] += w * term[k] * term[l];
+        for (int c = 0; c < RIGHT; c++)
+            f[k][c] += w * term[k] * value[c];
+    }
+}
+
+void stretch_sample(const sph_sim *sim, const stretch *b, const double *at, double reach, double *stress)
+{
+    double a[MOST][MOST] = {{0}}, f[MOST][RIGHT] = {{0}}, nearest = 1e300;
     sph_particle q;
     stress[0] = stress[1] = stress[2] = 0;
     for (uint32_t i = 0; i < sph_count(sim); i++) {
-        if (sph_get(sim, i, &q) != SPH_OK || q.role != SPH_ROLE_SOLID || (b->has_hole && off_rim(&b->hole, q.x) < skip))
+        if (sph_get(sim, i, &q) != SPH_OK || q.role != SPH_ROLE_SOLID)
             continue;
         for (int image = 0; image < 4; image++) {
             if ((image & 1 && !b->half) || (image & 2 && !b->quarter))
@@ -198,16 +270,52 @@ void stretch_sample(const sph_sim *sim, const stretch *b, const double *at, doub
                 nearest = far;
                 memcpy(stress, s, sizeof s);
             }
-            for (int k = 0; k < TERMS; k++) {
-                for (int l = 0; l < TERMS; l++)
-                    a[k][l] += w * t[k] * t[l];
-                for (int c = 0; c < 3; c++)
-                    f[k][c] += w * t[k] * s[c];
-            }
+            equation(TERMS, a, f, t, s, w);
         }
     }
-    if (solve(a, f))
+    if (solve(TERMS, a, f))
         memcpy(stress, f[0], sizeof f[0]);
+}
+
+/* 1, then (a/r)^m cos m angle and (r/out)^m cos m angle for m = 2, 4, 6, 8 */
+static void harmonics(const stretch *b, double out, const double *x, double *term)
+{
+    const double r2 = x[0] * x[0] + x[1] * x[1], a = b->hole.radius[0], c2 = (x[0] * x[0] - x[1] * x[1]) / r2;
+    double in = 1, far = 1, before = c2, c = 1; /* cos of 2 angle less and now */
+    term[0] = 1;
+    for (int m = 1; m <= 4; m++) {
+        const double next = 2 * c2 * c - before;
+        before = c;
+        c = next;
+        in *= a * a / r2;
+        far *= r2 / (out * out);
+        term[m] = in * c;
+        term[4 + m] = far * c;
+    }
+}
+
+void stretch_rim(const sph_sim *sim, const stretch *b, double skip, double out, uint32_t n, double *sum)
+{
+    double a[MOST][MOST] = {{0}}, f[MOST][RIGHT] = {{0}}, term[MOST];
+    const double rim = b->hole.radius[0];
+    sph_particle q;
+    for (uint32_t i = 0; i < sph_count(sim); i++) {
+        if (sph_get(sim, i, &q) != SPH_OK || q.set != STRETCH_ROCK)
+            continue;
+        const double r2 = q.x[0] * q.x[0] + q.x[1] * q.x[1], s[RIGHT] = {q.stress[0] + q.stress[1], 0, 0};
+        if (r2 < (rim + skip) * (rim + skip) || r2 > out * out)
+            continue;
+        harmonics(b, out, q.x, term);
+        equation(MOST, a, f, term, s, 1);
+    }
+    const bool fine = solve(MOST, a, f);
+    for (uint32_t k = 0; k < n; k++) {
+        const double angle = k * (SCENE_PI / 2) / (n - 1), at[2] = {rim * sph_cos(angle), rim * sph_sin(angle)};
+        harmonics(b, out, at, term);
+        sum[k] = 0;
+        for (int j = 0; j < MOST && fine; j++)
+            sum[k] += term[j] * f[j][0];
+    }
 }
 
 void stretch_look(const sph_sim *sim, const stretch *b, stretch_broken *out)

@@ -34,7 +34,7 @@ typedef struct stretch {
     bool has_hole, has_gas;
     sph_ellipse hole;
     sph_fluid gas;
-    uint32_t rings; /* so many rings of particles around a circular hole, before the square lattice begins */
+    bool bent; /* the lattice is bent round the hole, which is a circle; quarters only */
 } stretch;
 
 /* domain, faces and capacities of a scene of such a block */
@@ -61,10 +61,15 @@ double stretch_end_stress(const sph_sim *sim, double from);
 double stretch_peak(const sph_sim *sim, const stretch *b, double near);
 
 /* Stress xx, yy, xy at a place from the rock within `reach` of it, images in the mirror planes included, by a fit of
-   a quadratic polynomial with weights (1 - q^2)^3. Particles nearer than `skip` to the hole's rim are left out. Where there
-   are too few for that, the nearest one's. */
+   a quadratic polynomial with weights (1 - q^2)^3. Where there are too few particles for that, the nearest one's. */
 #define stretch_sample SPH_NAME(stretch_sample)
-void stretch_sample(const sph_sim *sim, const stretch *b, const double *at, double reach, double skip, double *stress);
+void stretch_sample(const sph_sim *sim, const stretch *b, const double *at, double reach, double *stress);
+
+/* sxx + syy at n places of a quarter of the rim of a circular hole about the origin, from 0 to 90 degrees. The sum is harmonic
+   in an elastic body: 1, r^-m cos m angle and r^m cos m angle, m up to 8, are fitted to the rock between `skip` off the rim and
+   the radius `out`. (At the rim itself the gradients of particles are one-sided and lag behind by about a spacing.) */
+#define stretch_rim SPH_NAME(stretch_rim)
+void stretch_rim(const sph_sim *sim, const stretch *b, double skip, double out, uint32_t n, double *sum);
 
 /* how much of the rock is broken */
 typedef struct stretch_broken {
