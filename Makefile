@@ -152,9 +152,14 @@ builds_test_eos_schemes := $(BUILDS)
 builds_test_time    := 1f 1d 2d
 builds_test_scenes  := $(BUILDS)
 builds_test_shapes  := $(BUILDS)
+builds_test_contact := $(BUILDS)
 # of commands of the tool, linked with those that need no scene: one build
 TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile
 $(foreach t,$(TOOL_TESTS),$(eval builds_$(t) := 2d))
+builds_test_solid   := $(BUILDS)
+builds_test_solid_forces := $(BUILDS)
+builds_test_solid_motion := $(BUILDS)
+builds_test_damage  := 2f 2d 3f 3d
 builds_of = $(or $(builds_$(1)),2f 2d)
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
 

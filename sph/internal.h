@@ -23,6 +23,7 @@
 
 #define SPH_PAD 48u       /* elements that may be read past an array's end by a vector */
 #define SPH_POWERS 4u     /* kept in the books: viscous, wall, diffusion, body force */
+#define SPH_PARTIALS (SPH_POWERS + 1u) /* sums of a chunk for the books: those, and energy given to held sets (J) */
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
 
@@ -99,6 +100,7 @@ typedef struct sph_peaks {
 typedef struct sph_factors {
     sph_real inv_h, eta, reach, reach2, slope, value;
     sph_real inv_wdx, repulsion; /* artificial stress: 1/(W(dx) without its scale), epsilon */
+    sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], gravity[SPH_DIM], small_p;
     bool rate_by_density, continuity, extras;
 } sph_factors;
@@ -162,7 +164,7 @@ struct sph_sim {
     float *flaw;                     /* thresholds */
     uint32_t flaws;
     sph_real *power[4];              /* viscous, wall, diffusion, body-force power of a particle (books) */
-    double *partial;                 /* SPH_POWERS sums a chunk (books) */
+    double *partial;                 /* SPH_PARTIALS sums a chunk (books) */
     uint32_t partials;
     struct sph_thread *thread;
     size_t arena_bytes, arena_used;

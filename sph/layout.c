@@ -52,7 +52,7 @@ sph_config sph_config_default(void)
     c.gravity_factor = 0.5;
     c.stress_exponent = 4;
     c.stress_epsilon = 0.3;
-    c.max_stretch = 1.5;
+    c.max_stretch = 1.25;
     return c;
 }
 
@@ -374,7 +374,7 @@ static void lay_out(const sph_config *c, const sph_grid *g, sph_sim *s, layout *
     if (sph_keeps_books(c)) {
         for (uint32_t k = 0; k < SPH_POWERS; k++)
             SPH_PLACE(power[k], "powers for the books", n, sizeof(sph_real));
-        SPH_PLACE(partial, "partial sums for the books", partials, SPH_POWERS * sizeof(double));
+        SPH_PLACE(partial, "partial sums for the books", partials, SPH_PARTIALS * sizeof(double));
     }
     if (s)
         s->buffers = buffers;

@@ -69,16 +69,17 @@ double sph_setup_cell_volume(const sph_sim *sim)
 }
 
 /* begins a set of fluid or solid: what both have; *out is the place for the rest */
-static sph_status begin_body(sph_sim *sim, const char *call, const sph_fluid *f, uint32_t *set, sph_set **out)
+static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint32_t *set, sph_set **out)
 {
+    const char *const call = solid ? "sph_add_solid" : "sph_add_fluid";
     sph_status st = sph_setup_idle(sim, call);
     if (st)
         return st;
     if (!set)
         return sph_setup_bad(sim, "set", "a place for the set's number", 0);
-    if ((st = check_positive(sim, "mass", f->mass, 1e30f)) != SPH_OK ||
-        (st = check_positive(sim, "rho0", f->rho0, 1e30f)) != SPH_OK ||
-        (st = check_positive(sim, "sound_speed", f->sound_speed, 1e15f)) != SPH_OK)
+    if ((st = check_positive(sim, solid ? "solid.mass" : "fluid.mass", f->mass, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, solid ? "solid.rho0" : "fluid.rho0", f->rho0, 1e30f)) != SPH_OK ||
+        (st = check_positive(sim, solid ? "solid.sound_speed" : "fluid.sound_speed", f->sound_speed, 1e15f)) != SPH_OK)
         return st;
     if (f->own_eos && !sph_in(SPH_EOSES_IN, f->eos))
         return sph_setup_bad(sim, "eos", "one of SPH_TAIT .. SPH_ISOTHERMAL, compiled in (modules.h)", f->eos);
@@ -99,7 +100,7 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
 {
     static const sph_fluid usual = {0, 0, 0, false, 0};
     sph_set *s = NULL;
-    sph_status st = begin_body(sim, "sph_add_fluid", f ? f : &usual, set, &s);
+    sph_status st = begin_body(sim, false, f ? f : &usual, set, &s);
     if (st)
         return st;
     s->role = SPH_ROLE_FLUID;
@@ -143,7 +144,7 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32
     if (!sim || !m)
         return sph_setup_bad(sim, "solid", "a material", 0);
     const sph_fluid as_fluid = {m->mass, m->rho0, m->sound_speed, true, SPH_LINEAR};
-    sph_status st = begin_body(sim, "sph_add_solid", &as_fluid, set, &s);
+    sph_status st = begin_body(sim, true, &as_fluid, set, &s);
     if (st || (st = check_solid(sim, m)) != SPH_OK)
         return st;
     s->role = SPH_ROLE_SOLID;

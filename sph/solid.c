@@ -4,7 +4,7 @@
 
      rates      dS/dt = 2 mu (e - tr e/3) + W S - S W,  e = (L + L^T)/2, W = (L - L^T)/2   (Jaumann; Gray 2001 eqs 5.7-5.9)
      yield      S f, f = Y/sqrt(3 J2) where that is below 1, J2 = S:S/2 with the zz part      (von Mises; Gray 5.13-5.15 mended)
-     correction M = -sum m_j x_ij (x) K g, kept as M^-1                                       (Bonet & Lok 1999)
+     correction M = -sum m_j x_ij (x) K g, kept as M^-1; not over pairs of two bodies         (Bonet & Lok 1999)
      smoothing  xsph, for strain rates from v + xsph                                         (Gray 2001 eqs 2.22, 5.10)
 
    Arrays: stress and dstress (1, 3 or 5 reals each, in every state buffer), plastic, shift where chosen; M^-1 (DIM^2 reals, once).
@@ -281,14 +281,17 @@ SPH_INLINE void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, u
         for (uint32_t v = 0; v < SPH_NV; v++) {
             const uint32_t j = from + v * SPH_W;
             vreal dx[SPH_DIM], kx[SPH_DIM], k2 = v_set(0), x2 = v_set(0);
-            vint same = v_set_int(0);
-            if (total && !wall)
-                same = v_less(v_set((sph_real)0.5), body) & v_equal(body, v_load(t->solid.body + j));
+            vint same = v_set_int(0), apart = same;
+            if (total && !wall) {
+                const vreal other = v_load(t->solid.body + j), half = v_set((sph_real)0.5);
+                same = v_less(half, body) & v_equal(body, other);
+                apart = v_less(half, body) & v_less(half, other) & ~same; /* two bodies know nothing of each other's strain */
+            }
             SPH_UNROLL
             for (int a = 0; a < SPH_DIM; a++) {
                 kx[a] = dx[a] = x[a] - v_load(c->x[a] + j);
                 if (total && !wall)
-                    kx[a] = v_select(same, k[a] - v_load(t->solid.k[a] + j), dx[a]);
+                    kx[a] = v_select(same, k[a] - v_load(t->solid.k[a] + j), v_where(~apart, dx[a]));
                 k2 = k2 + kx[a] * kx[a];
                 x2 = x2 + dx[a] * dx[a];
             }

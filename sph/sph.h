@@ -130,8 +130,10 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
               the same work, T = -sigma M^-T/rho (Bonet & Lok 1999), so momentum and angular momentum stay. Costs a sweep.
               Where M is nearly singular (lone particles, lines of them) the plain form is taken.
    TOTAL      the same with K the vector in the reference position, for pairs of one body of which neither is fully damaged;
-              fixed neighbours, no tensile instability. Other pairs (contact) take K = x_ij. A particle may go half a domain's
-              length from where it began (else MOVED_TOO_FAR). */
+              fixed neighbours, no tensile instability. A particle may go half a domain's length from where it began (else
+              MOVED_TOO_FAR). Contact of two bodies: no stress is shared; they push each other along x_ij, nearer than dx, as
+              by a pressure rho0 c0^2 (W/W(dx) - 1) of the configuration in both: no adhesion, no friction but that of uneven
+              surfaces (and viscosity where that is asked for). Other pairs (rubble, fluid) take K = x_ij. */
 enum { SPH_NO_SOLID, SPH_UPDATED, SPH_CORRECTED, SPH_TOTAL, SPH_SOLIDS };
 
 /* Yield. VON_MISES: where sqrt(3 J2) exceeds Y = yield + hardening * plastic strain, S is returned along the radius. With
@@ -574,8 +576,8 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
                 particles. The first sort of all has one chunk of n + cells units: sph_ready does it beforehand. So has the
                 first after a step that failed or was given up, and after a restore.
      a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2 for all
-                integrators but the predictor-corrector), as many again with Adami walls, 1 each for the Shepard filter and
-                summation (2 with Runge-Kutta).
+                integrators but the predictor-corrector), as many again with Adami walls, with SPH_CORRECTED or SPH_TOTAL,
+                and with xsph_strain; 1 each for the Shepard filter and summation (2 with Runge-Kutta).
    Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);

@@ -120,27 +120,46 @@ static void check_span(sph_sim *sim, span s, sph_thread *t)
         for (uint32_t i = s.first; i < s.last; i++)
             if (!(b->stress[k][i] - b->stress[k][i] == 0))
                 sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)b->stress[k][i]);
+    for (uint32_t i = s.first; i < s.last && SPH_HAS_YIELD && b->plastic[0]; i++)
+        if (!(b->plastic[0][i] >= 0 && b->plastic[0][i] - b->plastic[0][i] == 0))
+            sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)b->plastic[0][i]);
+    for (uint32_t i = s.first; i < s.last && SPH_HAS_DAMAGE && b->damage[0]; i++)
+        if (!(b->damage[0][i] >= 0 && b->damage[0][i] <= 1))
+            sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)b->damage[0][i]);
 #endif
 }
 
 #if SPH_WITH_BOOKS
+/* what the motion of a held set has added to its kinetic energy in this step, J/kg: exact, so that velocities may jump */
+static double held_gain(const sph_sim *sim, const sph_set *set)
+{
+    const uint32_t held = sph_held(sim, set);
+    double gain = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        if (held >> k & 1) {
+            const double v = sph_wall_velocity(sim, set, k), before = sim->now.group[set->group].vel[k];
+            gain += 0.5 * (v * v - before * before);
+        }
+    return gain;
+}
+
 /* sums of powers for the books: one row a chunk, added up in order of chunks afterwards */
 static void sum_powers(sph_sim *sim, uint32_t chunk, span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    double sum[SPH_POWERS] = {0};
+    double sum[SPH_PARTIALS] = {0};
     for (uint32_t i = s.first; i < s.last; i++) {
         if (b->set[0][i] == SPH_DEAD)
             continue;
         const sph_set *set = &sim->set[b->set[0][i]];
+        sum[SPH_POWERS] += set->mass * held_gain(sim, set);
         double d = (double)b->rho[0][i], rho = set->rho0 * (1 + d);
         for (uint32_t k = 0; k < SPH_POWERS; k++) {
             double p = set->mass * (double)sim->power[k][i];
             sum[k] += k == 2 ? p * -sph_pressure(sim, set, d) / (rho * rho) : p; /* energy that diffusion takes */
         }
     }
-    for (uint32_t k = 0; k < SPH_POWERS; k++)
-        sim->partial[chunk * SPH_POWERS + k] = sum[k];
+    memcpy(sim->partial + (size_t)chunk * SPH_PARTIALS, sum, sizeof sum);
 }
 
 /* books: powers integrate by the trapezoidal rule */
@@ -148,10 +167,14 @@ static sph_status add_books(sph_sim *sim)
 {
     if (!sim->cfg.books)
         return SPH_OK;
-    for (uint32_t k = 0; k < SPH_POWERS; k++) {
+    for (uint32_t k = 0; k < SPH_PARTIALS; k++) {
         double sum = 0;
         for (uint32_t c = 0; c < sph_local_chunks(sim); c++)
-            sum += sim->partial[c * SPH_POWERS + k];
+            sum += sim->partial[(size_t)c * SPH_PARTIALS + k];
+        if (k == SPH_POWERS) {
+            sim->next.work[1] += sum;
+            break;
+        }
         sim->next.work[k] += 0.5 * sim->dt * (sim->now.power[k] + sum);
         sim->next.power[k] = sum;
     }

@@ -21,7 +21,7 @@ typedef struct synth {
     double lo[3], hi[3], spacing, time;
     uint32_t face[6]; /* SPH_PERIODIC ... */
     struct {
-        uint32_t role;
+        uint32_t role, body;
         double rho0, c0, mass;
     } set[SYNTH_SETS];
     bool with_damage, with_stress, with_plastic, wrong_shape;
@@ -113,9 +113,9 @@ static void put_records(const synth *s)
     const synth_field scene[] = {{"max_particles", 1}, {"lo", d}, {"hi", d}, {"face", 2 * d}, {"quantum", 1},
                                  {"spacing", 1},       {"smoothing", 1}, {"eos", 1}, {"pressure_floor", 1}};
     const synth_field set[] = {{"role", 1},        {"group", 1},          {"mass", 1}, {"rho0", 1},
-                               {"sound_speed", 1}, {"pressure_scale", 1}, {"shear", 1}};
+                               {"sound_speed", 1}, {"pressure_scale", 1}, {"shear", 1}, {"eos", 1}, {"body", 1}};
     const synth_field group[] = {{"velocity", d}}, state[] = {{"time", 1}, {"step", 1}, {"particles", 1}};
-    double v[32], sets[SYNTH_SETS][7];
+    double v[32], sets[SYNTH_SETS][9];
     uint32_t n = 0;
     v[n++] = SYNTH_MOST;
     for (uint32_t k = 0; k < d; k++)
@@ -132,11 +132,11 @@ static void put_records(const synth *s)
     put_record("scene", scene, 9, 1, v);
     for (int i = 0; i < SYNTH_SETS; i++) {
         const double c2 = s->set[i].c0 * s->set[i].c0;
-        const double row[] = {s->set[i].role, 0, s->set[i].mass, s->set[i].rho0, s->set[i].c0, s->set[i].rho0 * c2 / 7,
-                              0.3 * s->set[i].rho0 * c2};
+        const double row[] = {s->set[i].role, 0, s->set[i].mass, s->set[i].rho0, s->set[i].c0, s->set[i].rho0 * c2,
+                              0.3 * s->set[i].rho0 * c2, SPH_LINEAR, s->set[i].body};
         memcpy(sets[i], row, sizeof row);
     }
-    put_record("sets", set, 7, SYNTH_SETS, sets[0]);
+    put_record("sets", set, 9, SYNTH_SETS, sets[0]);
     v[0] = v[1] = v[2] = 0;
     put_record("groups", group, 1, 1, v);
     v[0] = s->time;
@@ -200,7 +200,7 @@ static UNUSED void synth_write(const synth *s, const char *name)
     for (int round = 0; round < 2; round++) {
         const uint32_t sections = tape.sections;
         tape.n = 8;
-        put(1, 4);
+        put(SPH_VERSION, 4);
         put(s->dim, 1);
         put(8, 1);
         put(8, 1);
@@ -240,6 +240,7 @@ static UNUSED synth *synth_new(uint32_t dim, double spacing, double edge_x, doub
     }
     for (int i = 0; i < SYNTH_SETS; i++) {
         s.set[i].role = i < 2 ? 3 : 1;
+        s.set[i].body = (uint32_t)i;
         s.set[i].rho0 = 1000;
         s.set[i].c0 = 10;
         s.set[i].mass = 1000 * volume;

@@ -87,7 +87,14 @@ static void every_number_out_of_range_names_its_field(void **state)
         BAD(gravity_factor, wrong[i]);
         BAD(dt_max, wrong[i]);
         BAD(dt_min, wrong[i]);
+        BAD(stress_epsilon, wrong[i]);
+        BAD(max_stretch, wrong[i]);
     }
+    BAD(stress_epsilon, 10.1);
+    BAD(stress_exponent, 0);
+    BAD(stress_exponent, 9);
+    BAD(max_stretch, 0.9);
+    BAD(max_stretch, 8.1);
     BAD(spacing, 0);
     BAD(smoothing_length, 0.4 * DX);
     BAD(smoothing_length, 11 * DX);
@@ -120,7 +127,7 @@ static size_t array_bytes(size_t bytes) { return ((base().max_particles + 48u) *
 
 static void a_module_that_is_not_chosen_adds_nothing_to_the_arena(void **state)
 {
-    const size_t real = array_bytes(sizeof(sph_real)), sums = (base().max_particles / 256 + 1) * 4 * sizeof(double);
+    const size_t real = array_bytes(sizeof(sph_real)), sums = (base().max_particles / 256 + 1) * 5 * sizeof(double);
     const size_t one_state = 2 * SPH_DIM * real + 2 * real + SPH_DIM * real + array_bytes(4) + array_bytes(1);
     (void)state;
     /* choices that are arithmetic only */
@@ -159,6 +166,10 @@ static void every_choice_out_of_range_names_its_field(void **state)
     BAD(viscosity, SPH_VISCOSITIES);
     BAD(diffusion, SPH_DIFFUSIONS);
     BAD(integrator, SPH_INTEGRATORS);
+    BAD(solid, SPH_SOLIDS);
+    BAD(yield, SPH_YIELDS);
+    BAD(damage, SPH_DAMAGES);
+    BAD(artificial_stress, SPH_ARTIFICIAL_STRESSES);
     BAD(on_leave, SPH_PUT_BACK);
     BAD(on_cross, SPH_POLICIES);
     BAD(kernel, 0xffffffffu);
@@ -173,6 +184,87 @@ static void every_choice_out_of_range_names_its_field(void **state)
     refused(&c, "density", SPH_SUMMATION);
     assert_int_equal(sph_config_check(NULL, NULL), SPH_BAD_CONFIG);
     assert_true(sph_arena_bytes(NULL) == 0);
+}
+
+/* choices of solids that do not go with others */
+static void choices_of_solids_ask_for_each_other(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) { /* without a solid form */
+        sph_config c = base();
+        c.yield = k == 0;
+        c.damage = k == 1 && SPH_DIM > 1;
+        c.artificial_stress = k == 2;
+        c.xsph_strain = k == 3;
+        c.xsph = k == 3 ? 0.5 : 0;
+        if (SPH_DIM > 1 || k != 1)
+            refused(&c, "solid", SPH_NO_SOLID);
+    }
+    sph_config good = base();
+    good.solid = SPH_UPDATED;
+    assert_int_equal(sph_config_check(&good, NULL), SPH_OK);
+    for (uint32_t s = 0; s < SPH_SCHEMES; s++) {
+        sph_config c = good;
+        c.scheme = s;
+        if (s != SPH_STANDARD && s != SPH_WEAK)
+            refused(&c, "scheme", s);
+        else
+            assert_int_equal(sph_config_check(&c, NULL), SPH_OK);
+    }
+    sph_config c = good;
+    c.density = SPH_SUMMATION;
+    refused(&c, "density", SPH_SUMMATION);
+    c = good;
+    c.shepard_every = 5;
+    refused(&c, "density", SPH_CONTINUITY);
+    c = good;
+    c.xsph_strain = true;
+    refused(&c, "xsph", 0);
+    c = good;
+    c.solid = SPH_TOTAL;
+    c.artificial_stress = SPH_PRINCIPAL;
+    refused(&c, "artificial_stress", SPH_PRINCIPAL);
+#if SPH_DIM == 1
+    c = good;
+    c.damage = SPH_BENZ_ASPHAUG;
+    refused(&c, "damage", SPH_BENZ_ASPHAUG);
+#else
+    static const uint32_t flaws[] = {0, (1u << 30) + 1};
+    for (int k = 0; k < 2; k++) {
+        c = good;
+        c.damage = SPH_BENZ_ASPHAUG;
+        c.max_flaws = flaws[k];
+        refused(&c, "max_flaws", flaws[k]);
+    }
+#endif
+}
+
+/* none of them may change while a simulation lives */
+static void choices_of_solids_stay(void **state)
+{
+    sph_config good = base();
+    (void)state;
+    good.solid = SPH_CORRECTED;
+    good.yield = SPH_VON_MISES;
+    good.damage = SPH_DIM > 1 ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
+    good.max_flaws = 100;
+    good.xsph = 0.5;
+    sph_sim *sim = new_sim(&good);
+    for (int k = 0; k < 9; k++) {
+        sph_config c = good;
+        c.solid = k == 0 ? SPH_UPDATED : good.solid;
+        c.yield = k == 1 ? SPH_VON_MISES_GRAY : good.yield;
+        c.damage = k == 2 ? SPH_DIM > 1 ? SPH_BENZ_ASPHAUG_GRAY : SPH_BENZ_ASPHAUG : good.damage;
+        c.max_flaws = k == 3 ? 101 : good.max_flaws;
+        c.artificial_stress = k == 4 ? SPH_COMPONENTS : good.artificial_stress;
+        c.stress_exponent = k == 5 ? 3 : good.stress_exponent;
+        c.stress_epsilon = k == 6 ? 0.2 : good.stress_epsilon;
+        c.xsph_strain = k == 7;
+        c.max_stretch = k == 8 ? 2 : good.max_stretch;
+        if (sph_reconfigure(sim, &c) != SPH_BAD_CONFIG)
+            fail_msg("change %d was taken", k);
+    }
+    must(sim, sph_reconfigure(sim, &good));
 }
 
 static void the_domain_is_checked(void **state)
@@ -252,14 +344,24 @@ static void add_piece(void *ctx, const char *name, size_t bytes)
     *(size_t *)ctx += bytes;
 }
 
+/* whether SPH_USE_ flags can stand together: the filter not with solids, what solids have not without; a corrected form is one */
+static bool usable(uint32_t use)
+{
+    const bool solid = use & SPH_USE_SOLID;
+    if (solid ? use & SPH_USE_FILTER : use & (SPH_USE_CORRECTED | SPH_USE_TOTAL | SPH_USE_YIELD | SPH_USE_DAMAGE))
+        return false;
+    return (!(use & SPH_USE_TOTAL) || use & SPH_USE_CORRECTED) && (SPH_DIM > 1 || !(use & SPH_USE_DAMAGE));
+}
+
 /* the constant expression against the function, over a spread of configurations */
 static void the_constant_bound_holds_and_is_close(void **state)
 {
     static const uint32_t particles[] = {1, 100, 5000, 200000};
     (void)state;
     for (uint32_t n = 0; n < 4; n++)
-        for (uint32_t bits = 0; bits < 16; bits++)
-            for (uint32_t threads = 1; threads <= 8; threads *= 8) {
+        for (uint32_t bits = 0; bits < 512; bits++)
+            for (uint32_t threads = 1; threads <= 8 && usable(bits); threads *= 8) {
+                const uint32_t flaws = bits & SPH_USE_DAMAGE ? 7 * particles[n] : 0;
                 sph_config c = base();
                 double cells = 1;
                 c.max_particles = particles[n];
@@ -268,12 +370,18 @@ static void the_constant_bound_holds_and_is_close(void **state)
                 c.xsph = bits & SPH_USE_XSPH ? 0.5 : 0;
                 c.books = (bits & SPH_USE_BOOKS) != 0;
                 c.shepard_every = bits & SPH_USE_FILTER ? 20 : 0;
+                c.solid = bits & SPH_USE_TOTAL ? SPH_TOTAL : bits & SPH_USE_CORRECTED ? SPH_CORRECTED : bits & SPH_USE_SOLID ? SPH_UPDATED : 0;
+                c.yield = bits & SPH_USE_YIELD ? SPH_VON_MISES : SPH_NO_YIELD;
+                c.damage = bits & SPH_USE_DAMAGE ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
+                c.max_flaws = flaws;
+                c.max_stretch = 1;
                 for (int k = 0; k < SPH_DIM; k++) {
                     c.hi[k] = c.lo[k] + DX * (10 + 3 * k + 20 * (int)n);
                     double m = floor((c.hi[k] - c.lo[k]) / (2 * c.smoothing_length));
                     cells *= m < 1 ? 1 : m;
                 }
-                const size_t need = sph_arena_bytes(&c), bound = SPH_ARENA_BYTES(c.max_particles, cells, threads, bits);
+                const size_t need = sph_arena_bytes(&c), bound = SPH_ARENA_BYTES(c.max_particles, cells, threads, bits) + 4 * flaws;
+                assert_true(need > 0);
                 if (bound < need || (double)bound > 1.25 * (double)need + 65536)
                     fail_msg("%u particles, %g cells, %u threads, use %u: bound %zu, need %zu", c.max_particles, cells,
                              threads, bits, bound, need);
@@ -300,6 +408,53 @@ static void the_arena_report_adds_up(void **state)
     /* the bound that sph_step_slice states, for two sweeps (forces, filter) */
     const uint64_t around = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27;
     assert_true(u.step_work <= 2 * (around * u.cell_particles * u.particles + u.cells + 32) + 16u * (uint64_t)u.particles);
+}
+
+/* what a particle costs: all arrays, by the names of the report, over the room for particles */
+static void add_arrays(void *ctx, const char *name, size_t bytes)
+{
+    static const char *const fixed_size[] = {"header", "sets", "wall groups", "thread scratch", "cell starts", "slab starts", "flaws",
+                                             "partial sums for the books"};
+    for (size_t k = 0; k < sizeof fixed_size / sizeof *fixed_size; k++)
+        if (strcmp(name, fixed_size[k]) == 0)
+            return;
+    *(size_t *)ctx += bytes;
+}
+static double particle_bytes(uint32_t solid, uint32_t yield, uint32_t damage)
+{
+    sph_config c = base();
+    size_t sum = 0;
+    c.max_particles = 20000;
+    c.solid = solid;
+    c.yield = yield;
+    c.damage = damage;
+    c.max_flaws = 100;
+    sph_arena_report(new_sim(&c), add_arrays, &sum);
+    assert_int_equal(free_sims(NULL), 0);
+    return (double)sum / c.max_particles;
+}
+static void solids_cost_so_many_bytes_a_particle(void **state)
+{
+    static const char *const names[] = {"fluid", "updated", "corrected", "total"};
+    (void)state;
+    for (uint32_t form = 0; form < SPH_SOLIDS; form++) {
+        const double elastic = particle_bytes(form, 0, 0), all = form ? particle_bytes(form, SPH_VON_MISES, SPH_DIM > 1) : elastic;
+        print_message("%s: %.1f bytes a particle, yield and damage %.1f more\n", names[form], elastic, all - elastic);
+        if (SPH_DIM == 2 && !SPH_DOUBLE && form) { /* the displacement since the start makes it two more than 152 */
+            assert_true(elastic <= (form == SPH_TOTAL ? 154 : 152) + 0.5); /* + 0.5: padding behind 20000 */
+            assert_true(all - elastic <= 24);
+        }
+    }
+    /* a flaw is 4 bytes */
+    if (SPH_DIM > 1) {
+        sph_config c = base();
+        c.solid = SPH_UPDATED;
+        c.damage = SPH_BENZ_ASPHAUG;
+        c.max_flaws = 16;
+        const size_t few = sph_arena_bytes(&c);
+        c.max_flaws = 160016;
+        assert_int_equal(sph_arena_bytes(&c) - few, 640000);
+    }
 }
 
 /* a static arena by the constant expression, as a bare machine has it */
@@ -372,9 +527,10 @@ static void particles_and_lattices_check_their_arguments(void **state)
         x[k] = bad[k] = 0.3, lo[k] = 0, hi[k] = 0.4;
     arg_refused(sim, sph_add_fluid(sim, NULL, NULL), "set");
     uint32_t set;
-    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){-1, 0, 0}, &set), "fluid.mass");
-    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){0, NAN, 0}, &set), "fluid.rho0");
-    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){0, 0, INFINITY}, &set), "fluid.sound_speed");
+    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.mass = -1}, &set), "mass");
+    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.rho0 = NAN}, &set), "rho0");
+    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = INFINITY}, &set), "sound_speed");
+    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.own_eos = true, .eos = SPH_EOSES}, &set), "eos");
     arg_refused(sim, sph_add_particle(sim, 7, x, NULL, 0, NULL), "set");
     arg_refused(sim, sph_add_particle(sim, 0, NULL, NULL, 0, NULL), "x");
     arg_refused(sim, sph_add_particle(sim, 0, x, NULL, -1, NULL), "rho");
@@ -677,11 +833,14 @@ int main(void)
     const struct CMUnitTest list[] = {
         subject(every_number_out_of_range_names_its_field),
         subject(every_choice_out_of_range_names_its_field),
+        subject(choices_of_solids_ask_for_each_other),
+        subject(choices_of_solids_stay),
         subject(a_module_that_is_not_chosen_adds_nothing_to_the_arena),
         subject(the_domain_is_checked),
         subject(a_small_or_crooked_arena_is_refused_untouched),
         subject(the_constant_bound_holds_and_is_close),
         subject(the_arena_report_adds_up),
+        subject(solids_cost_so_many_bytes_a_particle),
         subject(a_static_arena_works),
 #if COUNT_ALLOCATIONS
         subject(nothing_is_allocated),

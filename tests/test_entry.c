@@ -29,6 +29,7 @@ static struct {
     unsigned char *image;
     size_t bytes;
     uint32_t state;
+    bool rock; /* a damaged, yielding solid instead of water */
     const char *row;
     uint32_t refused, taken;
 } bed;
@@ -51,17 +52,27 @@ static sph_config bed_config(void)
     c.body_force = poison;
     c.on_leave = SPH_REMOVE;
     c.on_cross = SPH_PUT_BACK;
+    if (bed.rock) {
+        c.solid = SPH_CORRECTED;
+        c.yield = SPH_VON_MISES;
+        c.damage = SPH_DIM > 1 ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
+        c.max_flaws = 4000;
+    }
     return c;
 }
 
 static void fill_bed(void)
 {
     sph_wall w = sph_wall_default();
+    const sph_solid rock = {.shear = 1e5, .yield = 1e4};
     double lo[SPH_DIM] = {0}, hi[SPH_DIM];
     uint32_t set;
     for (int k = 0; k < SPH_DIM; k++)
         hi[k] = 1;
-    must(bed.sim, sph_add_fluid(bed.sim, NULL, &set));
+    if (bed.rock)
+        must(bed.sim, sph_add_solid(bed.sim, &rock, &set, NULL));
+    else
+        must(bed.sim, sph_add_fluid(bed.sim, NULL, &set));
     must(bed.sim, sph_add_box(bed.sim, set, lo, hi, NULL));
     must(bed.sim, sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0), true, NULL));
 }
@@ -176,21 +187,22 @@ static void row_config_default(void)
 }
 
 /* the numbers and words of a configuration */
-enum { NUMBERS = 17 + 3 * SPH_DIM, WORDS = 14 + 2 * SPH_DIM };
+enum { PLAIN = 19, CHOICES = 20, NUMBERS = PLAIN + 3 * SPH_DIM, WORDS = CHOICES + 2 * SPH_DIM };
 static double *number_of(sph_config *c, uint32_t i)
 {
     double *const list[] = {&c->spacing, &c->smoothing_length, &c->rho0, &c->sound_speed, &c->alpha, &c->beta, &c->nu, &c->delta,
                             &c->xsph, &c->damping, &c->dt, &c->cfl, &c->viscous_factor, &c->force_factor, &c->gravity_factor,
-                            &c->dt_max, &c->dt_min};
-    const uint32_t k = (i - 17) / 3;
-    return i < 17 ? list[i] : (i - 17) % 3 == 0 ? &c->lo[k] : (i - 17) % 3 == 1 ? &c->hi[k] : &c->gravity[k];
+                            &c->dt_max, &c->dt_min, &c->stress_epsilon, &c->max_stretch};
+    const uint32_t k = (i - PLAIN) / 3;
+    return i < PLAIN ? list[i] : (i - PLAIN) % 3 == 0 ? &c->lo[k] : (i - PLAIN) % 3 == 1 ? &c->hi[k] : &c->gravity[k];
 }
 static uint32_t *word_of(sph_config *c, uint32_t i)
 {
     uint32_t *const list[] = {&c->cookie, &c->max_particles, &c->max_threads, &c->on_leave, &c->on_cross, &c->kernel, &c->scheme,
                               &c->density, &c->eos, &c->viscosity, &c->diffusion, &c->shepard_every, &c->integrator,
-                              &c->port.threads};
-    return i < 14 ? list[i] : &c->face[(i - 14) / 2][(i - 14) % 2];
+                              &c->port.threads, &c->solid, &c->yield, &c->damage, &c->max_flaws, &c->artificial_stress,
+                              &c->stress_exponent};
+    return i < CHOICES ? list[i] : &c->face[(i - CHOICES) / 2][(i - CHOICES) % 2];
 }
 
 /* what check, arena_bytes, init and reconfigure say about one configuration must agree */
@@ -307,12 +319,87 @@ static void row_add_fluid(void)
     if_idle(sph_add_fluid(bed.sim, NULL, OUT(uint32_t)), SPH_OK);
     EACH_NUMBER(x)
         for (int k = 0; k < 3; k++) {
-            const sph_fluid f = {k == 0 ? x : 0, k == 1 ? x : 0, k == 2 ? x : 0};
+            const sph_fluid f = {.mass = k == 0 ? x : 0, .rho0 = k == 1 ? x : 0, .sound_speed = k == 2 ? x : 0};
             attempt(sph_add_fluid(bed.sim, &f, OUT(uint32_t)));
             if (!finite(x) || x < 0 || x > 1e30 || (x > 0 && x < 1e-300))
                 refused(sph_add_fluid(bed.sim, &f, OUT(uint32_t)));
         }
+    EACH_WORD(w) {
+        const sph_fluid f = {.own_eos = true, .eos = w};
+        if_idle(sph_add_fluid(bed.sim, &f, OUT(uint32_t)), w < SPH_EOSES ? SPH_OK : SPH_BAD_ARGUMENT);
+    }
 }
+
+static void sway(void *ctx, double t, double *displacement, double *velocity)
+{
+    (void)ctx;
+    displacement[0] = t;
+    velocity[0] = 1;
+}
+static void row_add_solid(void)
+{
+    const sph_solid good = {.shear = 1e5};
+    uint32_t *const group = OUT(uint32_t) + 1;
+    no_sim(sph_add_solid(NULL, &good, OUT(uint32_t), group));
+    refused(sph_add_solid(bed.sim, NULL, OUT(uint32_t), group));
+    refused(sph_add_solid(bed.sim, &good, NULL, group));
+    if_idle(sph_add_solid(bed.sim, &good, OUT(uint32_t), NULL), bed.rock ? SPH_OK : SPH_BAD_ARGUMENT);
+    EACH_NUMBER(x)
+        for (int k = 0; k < 8; k++) {
+            sph_solid m = good;
+            double *const place[] = {&m.mass, &m.rho0, &m.sound_speed, &m.shear, &m.yield, &m.hardening, &m.crack_speed, &m.flaw_radius};
+            *place[k] = x;
+            attempt(sph_add_solid(bed.sim, &m, OUT(uint32_t), group));
+            if (!finite(x) || x < 0 || x > 1e30 || (k < 3 && x > 0 && x < 1e-300))
+                refused(sph_add_solid(bed.sim, &m, OUT(uint32_t), group));
+        }
+    EACH_WORD(w) {
+        sph_solid m = good;
+        m.body = w;
+        if_idle(sph_add_solid(bed.sim, &m, OUT(uint32_t), group), bed.rock && w < 256 ? SPH_OK : SPH_BAD_ARGUMENT);
+        m.body = 0;
+        m.held = w;
+        if_idle(sph_add_solid(bed.sim, &m, OUT(uint32_t), group), bed.rock && w < 1u << SPH_DIM ? SPH_OK : SPH_BAD_ARGUMENT);
+        m.motion = sway;
+        if_idle(sph_add_solid(bed.sim, &m, OUT(uint32_t), group), bed.rock && w && w < 1u << SPH_DIM ? SPH_OK : SPH_BAD_ARGUMENT);
+    }
+}
+
+#if SPH_DIM > 1
+#define OF_ROCK (bed.rock && bed.state != EMPTY) /* set 0 is one that can have flaws */
+static void row_add_flaws(void)
+{
+    const sph_flaws good = {1e6, 8, 1};
+    no_sim(sph_add_flaws(NULL, 0, &good));
+    refused(sph_add_flaws(bed.sim, 0, NULL));
+    EACH_WORD(w)
+        if_adding(sph_add_flaws(bed.sim, w, &good), OF_ROCK && w == 0 ? SPH_OK : SPH_BAD_ARGUMENT);
+    EACH_NUMBER(x)
+        for (int k = 0; k < 2; k++) {
+            const sph_flaws f = {k ? 1e6 : x, k ? x : 8, 1};
+            if (k ? x >= 1 && x <= 50 : x > 0 && x < 1e300)
+                if_adding(sph_add_flaws(bed.sim, 0, &f), OF_ROCK ? SPH_OK : SPH_BAD_ARGUMENT);
+            else
+                refused(sph_add_flaws(bed.sim, 0, &f));
+        }
+    if (bed.state == FILLED && bed.rock) { /* twice */
+        must(bed.sim, sph_add_flaws(bed.sim, 0, &good));
+        assert_int_equal(sph_add_flaws(bed.sim, 0, &good), SPH_BAD_ARGUMENT);
+        memcpy(sims[sim_count - 1].arena, bed.image, bed.bytes);
+    }
+}
+static void row_get_flaws(void)
+{
+    float *const list = (float *)(void *)(out + 64);
+    no_sim(sph_get_flaws(NULL, 0, OUT(uint32_t), list));
+    no_sim(sph_get_flaws(bed.sim, 0, NULL, list));
+    EACH_WORD(w) {
+        const sph_status want = bed.rock && w < bed.cfg.max_particles ? SPH_OK : SPH_BAD_ARGUMENT;
+        with_status(sph_get_flaws(bed.sim, w, OUT(uint32_t), list), want);
+        with_status(sph_get_flaws(bed.sim, w, OUT(uint32_t), NULL), want);
+    }
+}
+#endif
 
 #define SETS (bed.state == EMPTY ? 0u : 2u)
 #define VECTOR(name, value)                                                                                 \
@@ -528,6 +615,24 @@ static void row_motion_table(void)
         if (finite(now))
             assert_true(d[0] >= 0 && d[0] <= 2);
     }
+}
+static void row_motion_steady(void)
+{
+    double d[SPH_DIM], v[SPH_DIM];
+    sph_steady m;
+    for (int a = 0; a < SPH_DIM; a++) {
+        d[a] = v[a] = 7;
+        m.v[a] = 2 + a;
+        m.a[a] = 6;
+    }
+    sph_motion_steady(NULL, 0.5, d, v);
+    for (int a = 0; a < SPH_DIM; a++)
+        assert_true(d[a] == 0 && v[a] == 0);
+    sph_motion_steady(&m, 0.5, d, v);
+    for (int a = 0; a < SPH_DIM; a++)
+        assert_true(d[a] == 0.5 * (2 + a) + 0.75 && v[a] == 5 + a);
+    EACH_NUMBER(now)
+        sph_motion_steady(&m, now, d, v); /* what is not finite fails the step: test_faults.c */
 }
 static void row_add_wall_box(void)
 {
@@ -834,7 +939,7 @@ static void row_dump(void)
     with_status(sph_dump(bed.sim, SPH_DUMP_FULL, deny_sink, NULL), SPH_SINK_FAILED);
     EACH_WORD(w) {
         tape.n = 0;
-        const bool known = !(w & ~(SPH_DUMP_FULL | SPH_DUMP_PICTURE | SPH_DUMP_ACCELERATION));
+        const bool known = !(w & ~(SPH_DUMP_FULL | SPH_DUMP_PICTURE | SPH_DUMP_ACCELERATION)); /* stress and damage are of a picture */
         with_status(sph_dump(bed.sim, w, record, NULL), known ? SPH_OK : SPH_BAD_ARGUMENT);
     }
 }
@@ -860,14 +965,17 @@ typedef struct row {
 #define ROW(name) {#name, row_##name}
 static const row rows[] = {
     ROW(status_text), ROW(limit_text), ROW(config_default), ROW(config_check), ROW(arena_bytes), ROW(init), ROW(arena_report),
-    ROW(get_usage), ROW(last), ROW(reconfigure), ROW(add_fluid), ROW(add_particle), ROW(add_box), ROW(add_ring),
+    ROW(get_usage), ROW(last), ROW(reconfigure), ROW(add_fluid), ROW(add_solid), ROW(add_particle), ROW(add_box), ROW(add_ring),
 #if SPH_DIM == 2
     ROW(add_polygon), ROW(add_wall_segment),
 #endif
 #if SPH_DIM == 3
     ROW(add_wall_plane),
 #endif
-    ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(wall_default), ROW(add_wall_box),
+#if SPH_DIM > 1
+    ROW(add_flaws), ROW(get_flaws),
+#endif
+    ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(motion_steady), ROW(wall_default), ROW(add_wall_box),
     ROW(remove_wall), ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel),
     ROW(get_step), ROW(time), ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge), ROW(extent), ROW(kernel_value),
     ROW(kernel_support), ROW(hash), ROW(dump), ROW(restore),
@@ -875,13 +983,16 @@ static const row rows[] = {
 
 static void run_rows(uint32_t state)
 {
-    make_bed(state);
-    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-        bed.row = rows[k].name;
-        rows[k].run();
-        memcpy(sims[sim_count - 1].arena, bed.image, bed.bytes);
+    for (int rock = 0; rock < 2; rock++) {
+        bed.rock = rock;
+        make_bed(state);
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+            bed.row = rows[k].name;
+            rows[k].run();
+            memcpy(sims[sim_count - 1].arena, bed.image, bed.bytes);
+        }
+        unmake_bed();
     }
-    unmake_bed();
 }
 static void every_entry_of_an_empty_simulation(void **state) { (void)state, run_rows(EMPTY); }
 static void every_entry_of_a_filled_simulation(void **state) { (void)state, run_rows(FILLED); }

@@ -220,6 +220,9 @@ static void bodies_in_contact_stay_two(void **state)
     synth_write(s, dump);
     assert_int_equal(count(NULL, NULL), 2);
     assert_int_equal(count("across=yes", NULL), 1);
+    s->set[1].body = 0; /* a held end of the same body */
+    synth_write(s, dump);
+    assert_int_equal(count(NULL, NULL), 1);
 }
 
 static void bars_and_blocks(void **state)

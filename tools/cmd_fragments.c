@@ -19,7 +19,7 @@ static const char help[] =
     "                 The number of pieces at other thresholds is printed too; where it varies, look at a picture\n"
     "  link=1.5       in spacings; 1.5 links diagonal neighbours of a square lattice, which still pull at each other, and\n"
     "                 not across a row of broken particles. Material stretched by more than 6 % without damage needs more\n"
-    "  across=no      particles of different sets are not linked: bodies in contact are two pieces\n"
+    "  across=no      particles of different bodies (sets.body of the dump) are not linked: in contact they are two\n"
     "  least=1        pieces of fewer particles count as broken\n"
     "  by=length      what the histogram is of: the longest edge of a piece's box, or the diameter of the disc or ball\n"
     "                 of its volume (mass over rho0)\n"
@@ -109,19 +109,25 @@ typedef struct flood {
     const body *b;
     const options *o;
     double threshold;
-    bool *taken;
+    bool *taken, has_body;
     uint32_t *queue, tail, head;
     double (*place)[3]; /* in the order of the queue, unwrapped where the domain repeats */
 } flood;
 
 static bool whole(const flood *f, uint32_t j) { return f->b->d[j] < f->threshold; }
 
+/* the body of a set: a plate and its held ends are one; dumps from before there were solids do not say */
+static double body_of(const flood *f, uint32_t j)
+{
+    const uint32_t set = dump_set(f->d, f->b->at[j]);
+    return f->has_body ? dump_number(f->d, "sets", "body", set, 0) : set;
+}
+
 static void reach(void *ctx, uint32_t j, const double step[3], double r)
 {
     flood *f = ctx;
     (void)r;
-    if (f->taken[j] || !whole(f, j) ||
-        (!f->o->across && dump_set(f->d, f->b->at[j]) != dump_set(f->d, f->b->at[f->queue[f->head]])))
+    if (f->taken[j] || !whole(f, j) || (!f->o->across && body_of(f, j) != body_of(f, f->queue[f->head])))
         return;
     f->taken[j] = true;
     for (uint32_t k = 0; k < 3; k++)
@@ -171,7 +177,8 @@ static int largest_first(const void *a, const void *b)
 static bool find_pieces(const dump_file *d, const body *b, const options *o, double threshold, pieces *out)
 {
     double period[3] = {0, 0, 0};
-    flood f = {d, b, o, threshold, NULL, NULL, 0, 0, NULL};
+    dump_member m;
+    flood f = {d, b, o, threshold, NULL, dump_find_member(dump_find(d, "sets"), "body", &m), NULL, 0, 0, NULL};
     near g;
     for (uint32_t k = 0; k < d->dim; k++)
         if (dump_periodic(d, k))

@@ -9,8 +9,8 @@
 
 /* constants of the sets, looked up once for a whole field */
 typedef struct set_constants {
-    uint32_t role, group;
-    double rho0, scale, c0;
+    uint32_t role, group, eos;
+    double rho0, scale;
 } set_constants;
 
 static uint32_t index_of(const dump_file *d, const char *field, uint32_t set)
@@ -21,9 +21,11 @@ static uint32_t index_of(const dump_file *d, const char *field, uint32_t set)
 
 static void get_sets(const dump_file *d, set_constants *c)
 {
+    dump_member m;
+    const bool own = dump_find_member(dump_find(d, "sets"), "eos", &m); /* before there were solids: that of the scene */
     for (uint32_t s = 0; s < d->sets && s < 256; s++)
-        c[s] = (set_constants){index_of(d, "role", s), index_of(d, "group", s), dump_number(d, "sets", "rho0", s, 0),
-                               dump_number(d, "sets", "pressure_scale", s, 0), dump_number(d, "sets", "sound_speed", s, 0)};
+        c[s] = (set_constants){index_of(d, "role", s), index_of(d, "group", s), own ? index_of(d, "eos", s) : d->eos,
+                               dump_number(d, "sets", "rho0", s, 0), dump_number(d, "sets", "pressure_scale", s, 0)};
 }
 
 /* ---- names ---- */
@@ -109,18 +111,16 @@ bool dump_field_signed(const dump_file *d, const char *field)
 
 /* ---- values ---- */
 
-/* of a fluid by its equation of state, numbered as in sph.h: 2 linear, 3 isothermal, else Tait's; a solid's is linear */
+/* by the set's equation of state, numbered as in sph.h: 2 linear, 3 isothermal, else Tait's; solids bear tension */
 static double pressure(const dump_file *d, const arrays *a, const set_constants *c, uint32_t i)
 {
     const double s = dump_value(a->pressure, 0, i);
     if (strcmp(a->pressure->name, "rho") != 0)
         return s;
-    if (c->role == DUMP_SOLID)
-        return c->rho0 * c->c0 * c->c0 * s;
-    double p = d->eos == 2   ? c->scale * s
-               : d->eos == 3 ? c->scale * (1 + s)
+    double p = c->eos == 2   ? c->scale * s
+               : c->eos == 3 ? c->scale * (1 + s)
                              : c->scale * (s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s)))))));
-    return d->pressure_floor && p < 0 ? 0 : p;
+    return d->pressure_floor && p < 0 && c->role != DUMP_SOLID ? 0 : p;
 }
 
 /* a velocity component; a wall has that of its group */

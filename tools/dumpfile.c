@@ -8,7 +8,7 @@
 
 #include "host.h"
 
-#define VERSION 1u
+#define VERSION 2u /* 1 was before solids; what is read here is the same in both */
 #define PREAMBLE 32u
 #define HEADER 64u
 #define FIELD 32u
@@ -78,8 +78,8 @@ static bool read_preamble(dump_file *d)
     d->pos_bytes = p[14];
     d->full = p[15] == 1;
     d->sections = (uint32_t)number(p + 24, 4);
-    if (d->version != VERSION) {
-        host_no("%s: the dump has version %u, this program reads version %u", d->name, d->version, VERSION);
+    if (d->version < 1 || d->version > VERSION) {
+        host_no("%s: the dump has version %u, this program reads versions 1 to %u", d->name, d->version, VERSION);
         return false;
     }
     if (d->dim < 1 || d->dim > 3 || (d->real_bytes != 4 && d->real_bytes != 8) || d->pos_bytes != d->real_bytes ||

@@ -8,7 +8,7 @@
 enum { DAMAGE = PLATE_COMMON, WEIBULL_K, WEIBULL_M, SEED, CRACK_SPEED, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SOLID_PARAMS(SPH_WENDLAND_C2, 1.5, 0.5, 1, SPH_KICK_DRIFT_KICK, 0.25, SPH_CORRECTED, SPH_PRINCIPAL, 0.3, 0.03),
+    SOLID_PARAMS(SPH_WENDLAND_C2, 1.5, 0.5, 0, SPH_KICK_DRIFT_KICK, 0.25, SPH_CORRECTED, SPH_PRINCIPAL, 0.3, 0.03),
     PLATE_PARAMS(60, 0, 5e-4, 30),
     {"damage", "-", "cracks: no yes", 1, 0, 1, SCENE_CHOICE},
     {"k", "/cm^2", "flaws of a strain below 1 in a unit of area", 1.4e19, 1, 1e40, SCENE_NUMBER},

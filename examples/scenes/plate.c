@@ -103,7 +103,7 @@ static sph_status build(sph_sim *sim, const double *p)
 static double end(const double *p) { return p[CYCLES] * period(p); }
 
 static const char *const column[] = {"time_cm/c0", "tip_cm",       "kinetic_K.cm2", "elastic_K.cm2", "compression_K.cm2",
-                                     "energy_-",   "plastic_K.cm2", "dissipated_K.cm2"};
+                                     "energy_-",   "plastic_K.cm2", "dissipated_K.cm2", "closest_dx"};
 
 /* the middle of the free end: the last column's two particles next to the mid-line */
 static double tip(const sph_sim *sim, const double *p)
@@ -140,6 +140,9 @@ static void history(const sph_sim *sim, const double *p, double *row)
     row[5] = start > 0 ? (o.kinetic + o.elastic + o.internal + o.plastic_work) / start : 0;
     row[6] = o.plastic_work;
     row[7] = o.dissipated;
+    sph_config c;
+    configure(p, &c);
+    row[8] = solid_closest(sim, &c);
 }
 
 #define scene_plate SPH_NAME(scene_plate)

@@ -17,7 +17,10 @@
     X(lattice_box)                                                                                          \
     X(rings)                                                                                                \
     X(tension)                                                                                              \
-    X(brittle)
+    X(brittle)                                                                                              \
+    X(hole)                                                                                                 \
+    X(chamber)                                                                                              \
+    X(block)
 #else
 #define SCENE_LIST(X) X(dam_break_3d)
 #endif

@@ -14,8 +14,10 @@ enum {
 
 /* kernel, h, alpha, books, integrator, cfl as in SCENE_PARAMS_OF; form_: SPH_UPDATED ...; yield_: 0: elastic */
 #define SOLID_PARAMS(kernel_, h_, alpha_, books_, integrator_, cfl_, form_, repulsion_, mu_, yield_)                   \
-    SCENE_PARAMS_OF(kernel_, h_, SPH_LINEAR, SPH_ARTIFICIAL, alpha_, SPH_NO_DIFFUSION, SCENE_ADAMI, 1, 0, books_,      \
-                    integrator_, cfl_),                                                                                \
+    SOLID_PARAMS_DAMPED(kernel_, h_, alpha_, books_, integrator_, cfl_, form_, repulsion_, mu_, yield_, 1)
+#define SOLID_PARAMS_DAMPED(kernel_, h_, alpha_, books_, integrator_, cfl_, form_, repulsion_, mu_, yield_, damping_)  \
+    SCENE_PARAMS_OF(kernel_, h_, SPH_LINEAR, SPH_ARTIFICIAL, alpha_, SPH_NO_DIFFUSION, SCENE_ADAMI, damping_, 0,       \
+                    books_, integrator_, cfl_),                                                                                \
     {"form", "-", "solid form: updated corrected total", (form_) - 1, 0, 2, SCENE_CHOICE},                             \
     {"repulsion", "-", "artificial stress: none principal components", repulsion_, 0, 2, SCENE_CHOICE},                \
     {"epsilon", "-", "factor of the artificial stress; 0: none", 0.3, 0, 10, SCENE_NUMBER},                            \
@@ -31,7 +33,8 @@ static inline sph_config solid_config(const double *p, double dx)
 {
     sph_config c = scene_config(p, dx, 1, 1);
     c.solid = (uint32_t)p[SOLID_FORM] + 1;
-    c.artificial_stress = p[SOLID_EPSILON] > 0 && c.solid != SPH_TOTAL ? (uint32_t)p[SOLID_REPULSION] : SPH_NO_ARTIFICIAL_STRESS;
+    const bool repels = p[SOLID_EPSILON] > 0 && c.solid != SPH_TOTAL;
+    c.artificial_stress = repels ? (uint32_t)p[SOLID_REPULSION] : SPH_NO_ARTIFICIAL_STRESS;
     c.stress_epsilon = p[SOLID_EPSILON];
     c.stress_exponent = (uint32_t)p[SOLID_EXPONENT];
     c.xsph_strain = p[SOLID_STRAIN] != 0;
@@ -73,7 +76,7 @@ static inline double solid_closest(const sph_sim *sim, const sph_config *c)
     return __builtin_sqrt(least) / c->spacing;
 }
 
-/* microseconds of Gray's time unit in the rings of his section 6.1: 50 m/s are 5.87e-3 c0, so 1 cm/c0 is 1.174 of them */
-#define SOLID_MICROSECONDS (5.87e-3 * 1e4 / 50)
+/* microseconds of Gray's time unit in the rings of his section 6.1: 50 m/s are 0.0587 c0 (rings.c) */
+#define SOLID_MICROSECONDS (0.0587 * 1e4 / 50)
 
 #endif

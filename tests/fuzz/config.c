@@ -8,12 +8,13 @@ static void change_field(input *in, sph_config *c)
 {
     double *const numbers[] = {&c->spacing, &c->smoothing_length, &c->rho0, &c->sound_speed, &c->alpha, &c->beta, &c->nu,
                                &c->delta, &c->xsph, &c->damping, &c->dt, &c->cfl, &c->viscous_factor, &c->force_factor,
-                               &c->gravity_factor, &c->dt_max, &c->dt_min, &c->lo[0], &c->hi[0], &c->gravity[0],
+                               &c->gravity_factor, &c->dt_max, &c->dt_min, &c->stress_epsilon, &c->max_stretch, &c->lo[0], &c->hi[0], &c->gravity[0],
                                &c->lo[SPH_DIM - 1], &c->hi[SPH_DIM - 1], &c->gravity[SPH_DIM - 1]};
     uint32_t *const words[] = {&c->cookie, &c->max_particles, &c->max_threads, &c->face[0][0], &c->face[0][1],
                                &c->face[SPH_DIM - 1][0], &c->face[SPH_DIM - 1][1], &c->on_leave, &c->on_cross, &c->kernel,
                                &c->scheme, &c->density, &c->eos, &c->viscosity, &c->diffusion, &c->shepard_every,
-                               &c->integrator, &c->port.threads};
+                               &c->integrator, &c->port.threads, &c->solid, &c->yield, &c->damage, &c->max_flaws,
+                               &c->artificial_stress, &c->stress_exponent};
     enum { NUMBERS = sizeof numbers / sizeof *numbers, WORDS = sizeof words / sizeof *words };
     const uint32_t which = pick(in, NUMBERS + 2 * WORDS);
     if (which < NUMBERS)
@@ -46,7 +47,8 @@ static sph_config make_config(input *in)
         for (uint32_t i = pick(in, 12); i > 0; i--)
             change_field(in, &c);
     }
-    const bool floor = take(in, 1) & 1, books = take(in, 1) & 1;
+    const bool floor = take(in, 1) & 1, books = take(in, 1) & 1, hat = take(in, 1) & 1;
+    memcpy(&c.xsph_strain, &hat, sizeof hat);
     memcpy(&c.pressure_floor, &floor, sizeof floor);
     memcpy(&c.books, &books, sizeof books);
     c.body_force = NULL;

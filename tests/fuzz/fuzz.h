@@ -102,7 +102,8 @@ static UNUSED uint64_t most_work(const sph_sim *sim, uint64_t n)
     const bool rk = c->integrator >= SPH_RUNGE_KUTTA;
     const uint64_t forces = c->integrator == SPH_PREDICTOR_CORRECTOR ? 1 : 2;
     const uint64_t sums = c->density == SPH_SUMMATION || c->shepard_every ? (rk ? 2u : 1u) : 0;
-    return SPH_STEP_WORK(forces * (sim->has_adami ? 2 : 1) + sums, n, sim->mark_cell, sim->grid.cells);
+    const uint64_t each = 1u + sim->has_adami + sph_corrects(c) + sph_smooths_strain(c);
+    return SPH_STEP_WORK(forces * each + sums, n, sim->mark_cell, sim->grid.cells);
 }
 static UNUSED uint64_t most_slice(const sph_sim *sim, uint64_t n, uint64_t budget, bool sorted)
 {

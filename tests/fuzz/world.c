@@ -46,6 +46,20 @@ static sph_config take_config(world *w)
         c.face[k][0] = c.face[k][1] = f;
         c.gravity[k] = k + 1 == SPH_DIM ? -take_near(in, 20) : 0;
     }
+    const uint32_t solid = pick(in, 8);
+    if (solid > 0 && solid < SPH_SOLIDS) {
+        c.solid = solid;
+        c.scheme = c.scheme % 2 ? SPH_WEAK : SPH_STANDARD;
+        c.density = SPH_CONTINUITY;
+        c.shepard_every = 0;
+        c.yield = pick(in, SPH_YIELDS);
+        c.damage = SPH_DIM > 1 ? pick(in, SPH_DAMAGES) : 0;
+        c.max_flaws = pick(in, 2) ? 20000 : 40;
+        c.artificial_stress = solid == SPH_TOTAL ? 0 : pick(in, SPH_ARTIFICIAL_STRESSES);
+        c.stress_exponent = 1 + pick(in, 8);
+        c.xsph_strain = c.xsph > 0 && pick(in, 2);
+        c.max_stretch = 1 + take_near(in, 1);
+    }
     if (pick(in, 16) == 0) /* a domain of another shape */
         c.hi[pick(in, SPH_DIM)] = take_any(in);
     if (pick(in, 4) == 0) {

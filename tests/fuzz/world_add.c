@@ -10,17 +10,64 @@ static void field(void *ctx, const double *x, double *v, double *rho)
     *rho += f[SPH_DIM] * x[0];
 }
 
+/* ---- motions ---- */
+
+static void drive(void *ctx, double t, double *x, double *v)
+{
+    const motion *m = ctx;
+    x[0] = m->start + m->speed * t + (t >= m->jump_at ? m->jump : 0);
+    v[0] = m->speed;
+}
+
+/* ---- sets, particles, lattices, fields ---- */
+
+static void add_solid(world *w, uint32_t how)
+{
+    sph_solid m = {0};
+    uint32_t set, group;
+    const uint32_t held = (uint32_t)take(&w->in, 1), g = w->sim->groups % SPH_MAX_GROUPS;
+    m.shear = how & 1 ? take_any(&w->in) : take_near(&w->in, 1e5);
+    m.yield = how & 2 ? take_near(&w->in, 1e4) : 0;
+    m.hardening = take_near(&w->in, 1e4);
+    m.crack_speed = take_near(&w->in, 10);
+    m.body = held & 1;
+    m.held = held & 2 ? held >> 2 & ((1u << SPH_DIM) - 1) : 0;
+    if (held & 32) {
+        w->motion[g] = (motion){take_near(&w->in, 0.1), take_near(&w->in, 1), take_near(&w->in, 0.01), take_near(&w->in, 1)};
+        m.motion = drive;
+        m.motion_ctx = &w->motion[g];
+    }
+    attempt(w, sph_add_solid(w->sim, &m, &set, &group));
+}
+
+static void add_flaws(world *w)
+{
+#if SPH_DIM > 1
+    const uint32_t how = pick(&w->in, 4), set = pick(&w->in, 4);
+    const sph_flaws f = {how ? 1e9 * (1 + take_near(&w->in, 100)) : take_any(&w->in), how ? 8.5 : take_any(&w->in), take(&w->in, 2)};
+    attempt(w, sph_add_flaws(w->sim, set, &f));
+#else
+    (void)w;
+#endif
+}
+
 static void add_set(world *w)
 {
-    sph_fluid f = {0, 0, 0};
+    sph_fluid f = {0};
     uint32_t set;
     const uint32_t how = pick(&w->in, 4);
+    if (w->cfg.solid && take(&w->in, 1) & 1) {
+        add_solid(w, how);
+        return;
+    }
+    f.own_eos = w->cfg.solid && how == 1;
+    f.eos = f.own_eos ? pick(&w->in, SPH_EOSES + 1) : 0;
     if (how == 1)
         f.rho0 = take_near(&w->in, 2000);
     else if (how == 2)
         f.sound_speed = take_near(&w->in, 40);
     else if (how == 3)
-        f = (sph_fluid){take_any(&w->in), take_any(&w->in), take_any(&w->in)};
+        f = (sph_fluid){take_any(&w->in), take_any(&w->in), take_any(&w->in), false, 0};
     attempt(w, sph_add_fluid(w->sim, how ? &f : NULL, &set));
 }
 
@@ -75,8 +122,10 @@ static void add_shape(world *w, uint32_t shape)
 
 void world_add_fluid(world *w)
 {
-    const uint32_t what = pick(&w->in, 8);
-    if (what < 5) {
+    const uint32_t what = pick(&w->in, w->cfg.damage ? 9 : 8);
+    if (what == 8) {
+        add_flaws(w);
+    } else if (what < 5) {
         add_shape(w, what < 3 ? what : 1);
     } else if (what == 5) {
         add_set(w);
@@ -90,13 +139,6 @@ void world_add_fluid(world *w)
 }
 
 /* ---- walls ---- */
-
-static void drive(void *ctx, double t, double *x, double *v)
-{
-    const motion *m = ctx;
-    x[0] = m->start + m->speed * t + (t >= m->jump_at ? m->jump : 0);
-    v[0] = m->speed;
-}
 
 static void take_motion(world *w, sph_wall *wall)
 {
