@@ -15,11 +15,12 @@ const scene *const scene_table[] = {&scene_hydrostatic, NULL};
 #define scene_hole SPH_NAME(scene_hole)
 #define scene_chamber SPH_NAME(scene_chamber)
 #define scene_block SPH_NAME(scene_block)
+#define scene_caldera SPH_NAME(scene_caldera)
 extern const scene scene_dam_break, scene_still_tank, scene_standing_wave, scene_taylor_green, scene_elliptical_drop;
-extern const scene scene_hole, scene_chamber, scene_block;
+extern const scene scene_hole, scene_chamber, scene_block, scene_caldera;
 const scene *const scene_table[] = {&scene_dam_break,    &scene_still_tank,      &scene_standing_wave,
                                     &scene_taylor_green, &scene_elliptical_drop,  &scene_hole,
-                                    &scene_chamber,      &scene_block,           NULL};
+                                    &scene_chamber,      &scene_block,           &scene_caldera,         NULL};
 #else
 #define scene_dam_break_3d SPH_NAME(scene_dam_break_3d)
 extern const scene scene_dam_break_3d;
