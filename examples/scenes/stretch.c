@@ -33,11 +33,12 @@ void break_configure(const double *p, sph_config *c)
     c->max_flaws = scene_capacity(n * (sph_log(n + 1) * 1.5 + 4)); /* n ln n, and what the last bare particles cost */
 }
 
-double stretch_drawn(const double *p, double t)
+/* where an end is at time t, and how fast it goes: up to speed evenly, on, and evenly to rest */
+static double drawn(const double *p, double t, double *speed)
 {
-    const double ramp = p[STRETCH_RAMP], v = p[STRETCH_SPEED];
-    const double rest = p[STRETCH_PULL] > 0 ? p[STRETCH_PULL] > 2 * ramp ? p[STRETCH_PULL] : 2 * ramp : 1e300;
-    const double left = rest - t;
+    const double v = p[STRETCH_SPEED] / p[STRETCH_SLOW], ramp = p[STRETCH_RAMP] * p[STRETCH_SLOW], pull = p[STRETCH_PULL] * p[STRETCH_SLOW];
+    const double rest = pull > 0 ? pull > 2 * ramp ? pull : 2 * ramp : 1e300, left = rest - t;
+    *speed = left <= 0 ? 0 : t < ramp ? v * t / ramp : left < ramp ? v * left / ramp : v;
     if (left <= 0)
         return v * (rest - ramp);
     if (t < ramp)
@@ -47,23 +48,20 @@ double stretch_drawn(const double *p, double t)
     return v * (t - ramp / 2);
 }
 
-static double speed_at(const double *p, double t)
+double stretch_drawn(const double *p, double t)
 {
-    const double ramp = p[STRETCH_RAMP], v = p[STRETCH_SPEED];
-    const double rest = p[STRETCH_PULL] > 0 ? p[STRETCH_PULL] > 2 * ramp ? p[STRETCH_PULL] : 2 * ramp : 1e300;
-    const double left = rest - t;
-    return left <= 0 ? 0 : t < ramp ? v * t / ramp : left < ramp ? v * left / ramp : v;
+    double speed;
+    return drawn(p, t, &speed);
 }
 
 static void to_right(void *ctx, double t, double *x, double *v)
 {
-    x[0] = stretch_drawn(ctx, t);
-    v[0] = speed_at(ctx, t);
+    x[0] = drawn(ctx, t, &v[0]);
 }
 static void to_left(void *ctx, double t, double *x, double *v)
 {
-    x[0] = -stretch_drawn(ctx, t);
-    v[0] = -speed_at(ctx, t);
+    x[0] = -drawn(ctx, t, &v[0]);
+    v[0] = -v[0];
 }
 
 /* ---- a lattice bent round a circular hole ---- */
@@ -316,6 +314,18 @@ void stretch_rim(const sph_sim *sim, const stretch *b, double skip, double out, 
         for (int j = 0; j < MOST && fine; j++)
             sum[k] += term[j] * f[j][0];
     }
+}
+
+void stretch_load(const stretch *b, double p, const double *x, double *a)
+{
+    const sph_ellipse *e = &b->hole;
+    const double u = (x[0] - e->centre[0]) / e->radius[0], v = (x[1] - e->centre[1]) / e->radius[1], q = __builtin_sqrt(u * u + v * v);
+    const double g[2] = {u / e->radius[0], v / e->radius[1]}, size = __builtin_sqrt(g[0] * g[0] + g[1] * g[1]), wide = 3 * b->dx;
+    const double off = size > 0 ? (q - 1) * q / size : -1; /* (q - 1)/|grad q| */
+    if (off < 0 || off >= wide)
+        return;
+    for (int k = 0; k < 2; k++)
+        a[k] += p * (2 / wide) * (1 - off / wide) * g[k] / size;
 }
 
 void stretch_look(const sph_sim *sim, const stretch *b, stretch_broken *out)
