@@ -211,6 +211,7 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         kx[k] = dx[k] = h->x[k] - v_load(t->x[k] + j);
     const vreal r2 = dot(dx, dx);
     vreal k2 = r2;
+    (void)kx; /* read by solids only */
 #if SPH_HAS_TOTAL
     if (c->solid && c->total && !wall) {
         const vint same = v_less(v_set((sph_real)0.5), h->body) & v_equal(h->body, v_load(th->solid.body + j));
