@@ -220,6 +220,7 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         kx[k] = dx[k] = h->x[k] - v_load(t->x[k] + j);
     const vreal r2 = dot(dx, dx);
     vreal k2 = r2;
+    (void)kx; /* read by solids only */
 #if SPH_HAS_TOTAL
     vint apart = v_set_int(0); /* of two bodies: no stress between them */
     if (c->solid && c->total && !wall) {
