@@ -4,10 +4,10 @@
    clump? With a plane wave: its amplitude by projection on the wave, from which a frequency or a rate of growth follows
    (`sph dispersion` has the theory).
 
-   Pressure: p = c0^2 (lambda rho - rho0) (his eq 5.78; lambda < 1: tension) with the start at `rho` times rho0. lambda rho - rho0 =
-   lambda (rho - rho0/lambda): the material is one of rest density rho0/lambda and sound speed sqrt(lambda) c0, whose bulk
-   modulus is the same. rho = lambda with lambda = 1 would give the same pressures, and every frequency 1/sqrt(lambda) times
-   larger, as the same stresses move less mass.
+   Pressure: p = c0^2 (lambda rho - rho0) (his eq 5.78; lambda < 1: tension) with the start at `rho` times rho0. As lambda rho
+   - rho0 = lambda (rho - rho0/lambda), the material is one of rest density rho0/lambda and sound speed sqrt(lambda) c0, whose
+   bulk modulus is the same. rho = lambda with lambda = 1 would give the same pressures, and every frequency 1/sqrt(lambda)
+   times larger, as the same stresses move less mass.
 
    The history looks at every pair, a block of places at a time: it costs n^4 and is meant for n below 100. */
 #include "solid.h"
@@ -104,8 +104,8 @@ static double end(const double *p) { return p[DURATION] * p[SIDE]; }
 
 /* ---- history: who is near whom ---- */
 
-/* Neighbours of BLOCK places. NEAR, in spacings, lies between the distances of the second neighbours of the face-centred and the
-   square lattice (1.118, 1.414): the one has six so near, the other four. */
+/* Neighbours of BLOCK places. NEAR, in spacings, lies between the distances of the second neighbours of the face-centred and
+   the square lattice (1.118, 1.414): the one has six so near, the other four. */
 #define BLOCK 256
 #define NEAR 1.27
 typedef struct around {
@@ -176,8 +176,9 @@ static void order_of_holes(const sph_sim *sim, const double *p, order *o)
     for (uint32_t first = 0; first < m * m; first += BLOCK) {
         const uint32_t n = m * m - first < BLOCK ? m * m - first : BLOCK;
         for (uint32_t i = 0; i < n; i++) {
-            a.x[i][0] = (first + i) % m * 0.5 * spacing(p);
-            a.x[i][1] = (first + i) / m * 0.5 * spacing(p);
+            const uint32_t column = (first + i) % m, line = (first + i) / m;
+            a.x[i][0] = 0.5 * column * spacing(p);
+            a.x[i][1] = 0.5 * line * spacing(p);
         }
         look(sim, p, &a, n, false);
         for (uint32_t i = 0; i < n; i++)
