@@ -30,7 +30,7 @@ typedef sph_factors factors;
 /* The predictor-corrector evaluates forces once, at the predicted state, and keeps them: on an oscillation w it multiplies
    the amplitude by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu + z/2 = 0, z = i w dt). Sound of the shortest waves
    grows unless dissipation, whose effect a step goes as dt, is stronger: so the largest Courant number goes as its cube
-   root. 0.22 is what a still tank of 30 particles stands with alpha = 0.01 alone (tests/validate.py, G2). */
+   root. 0.22 is what a still tank of 30 particles stands with alpha = 0.01 alone (tests/validate_water.py, G2). */
 #define PC_COURANT 0.22
 #define PC_DISSIPATION (0.01 / 8) /* nu/(h c) of artificial viscosity with alpha 0.01 in 2-D */
 #define PC_COURANT_LEAST 0.05
