@@ -98,7 +98,7 @@ static sph_status begin_body(sph_sim *sim, const char *call, const sph_fluid *f,
 sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
 {
     static const sph_fluid usual = {0, 0, 0, false, 0};
-    sph_set *s;
+    sph_set *s = NULL;
     sph_status st = begin_body(sim, "sph_add_fluid", f ? f : &usual, set, &s);
     if (st)
         return st;
