@@ -164,7 +164,7 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
 /* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:
    velocity Verlet; density drifts with the half-step velocity, so a step takes two sweeps (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1,
-   rates then forces (two sweeps), velocities half a step behind. RUNGE_KUTTA: Wickramarachchi 3.85-3.87;
+   rates then forces (two sweeps), velocities half a step ahead. RUNGE_KUTTA: Wickramarachchi 3.85-3.87;
    RUNGE_KUTTA_MOMENTUM: his 3.91-3.92 (algebraically the same midpoint rule, rounded differently). */
 enum {
     SPH_PREDICTOR_CORRECTOR,

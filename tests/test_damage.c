@@ -265,7 +265,7 @@ static void flaws_follow_weibull(void **state)
                       low[2]);
         assert_true(more > 0.99 && more < 1.8);
         for (int e = 0; e < 3; e++)
-            close_to(low[e], more * f.k * MANY * pow(eps[e], f.m), 4 * sqrt(total * (e + 1) / 4.0 * (3 - e) / 4.0));
+            close_to(low[e], more * f.k * MANY * pow(eps[e], f.m), 4 * sqrt(1.0 * total * (e + 1) / 4.0 * (3 - e) / 4.0));
         assert_int_equal(free_sims(NULL), 0);
     }
 }
