@@ -270,7 +270,7 @@ static void a_free_block_keeps_its_energy(void **state)
     }
 }
 
-/* Leap-frog's velocities are half a step behind: the energy read is off by up to half of what a step changes the kinetic one by. */
+/* Leap-frog's velocities are half a step ahead: the energy read is off by up to half of what a step changes the kinetic one by. */
 static double skew_of(uint32_t integrator, double before, double after)
 {
     return integrator == SPH_LEAP_FROG ? 0.5 * fabs(after - before) : 0;
