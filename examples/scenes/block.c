@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* block.c: a block with flaws is drawn apart until it breaks: whole, with a circular hole, or with gas in the hole (Gray 2001
    section 7.2). 7 by 7 cm, a^2 = 0.3125 cm^2, particles 0.05 cm apart, gas p = rho c^2 with c = c0/80. Gray's text gives
-   V_f = 1e-5, his figure 1e-4; with the latter the strain at his first fractures, T 250, 105, 80, is that of the flaws.
+   V_f = 1e-5, his figure 1e-4; with the latter the strain at his first fractures, T 250, 105, 80, is that of the flaws. He
+   prints a yield stress of 0.01, which the stress reaches before the flaws: with yield=0.01 the block flows and hardly breaks.
    Gas beside rock shares its sums, so that the rock's outermost row feels only part of its own strain; `load` puts the
    same pressure on the rim instead. */
 #include "stretch.h"
@@ -11,10 +12,10 @@ enum { KIND = BREAK_COMMON, N, SIZE, SQUARE, GAS, PARAMS };
 enum { WHOLE, WITH_HOLE, WITH_GAS, WITH_LOAD };
 
 static const scene_param param[PARAMS] = {
-    SOLID_PARAMS(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0.85, 0.01),
-    STRETCH_PARAMS(1e-4, 0, 0),
+    SOLID_PARAMS(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.8, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0.85, 0),
+    STRETCH_PARAMS(1e-4, 10, 0),
     BREAK_PARAMS(SPH_BENZ_ASPHAUG, 1.4e19, 0),
-    {"kind", "-", "the block: whole, with a hole, gas in it, its pressure as a load: whole hole gas load", WITH_HOLE, 0, 3, SCENE_CHOICE},
+    {"kind", "-", "whole, with a hole, with gas in that, or its pressure as a load: whole hole gas load", WITH_HOLE, 0, 3, SCENE_CHOICE},
     {"n", "-", "particles across the block, an even number", 140, 20, 4000, SCENE_WHOLE},
     {"size", "cm", "edge of the block", 7, 0.1, 1e3, SCENE_NUMBER},
     {"square", "cm^2", "radius of the hole, squared", 0.3125, 1e-6, 1e5, SCENE_NUMBER},
