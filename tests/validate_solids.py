@@ -305,7 +305,6 @@ def g23(quick, add):
 GROUPS.append(g23)
 
 
-<<<<<<< HEAD
 # ---- G14: colliding rings (Gray 2001, 6.1) ----
 
 MICROSECONDS = 11.74  # of a time of 1: 50 m/s are 0.0587 c0 (examples/scenes/rings.c)
@@ -481,8 +480,6 @@ def g18(quick, add):
 GROUPS += [g14, g17, g18]
 
 
-=======
->>>>>>> part_h6
 # ---- G19: a hole in a stretched block (Gray 2001 section 6.5). The elastic forms are chosen by convergence: total and corrected
 # agree to three digits, updated is weak at free surfaces. Gray's hole has steps; its re-entrant corners are what he calls noise.
 
