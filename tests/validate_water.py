@@ -129,15 +129,5 @@ def standing_decay(run):
     return rate(y) / rate(e)
 
 
-def bound(target):
-    """A target as an operator and a number: 3 is (<=, 3); others are given as such pairs."""
-    return target if isinstance(target, tuple) else ("<=", target)
-
-
-def meets(value, target):
-    sign, limit = bound(target)
-    return {"<=": value <= limit, "<": value < limit, ">=": value >= limit}[sign]
-
-
 if __name__ == "__main__":
     sys.exit(main(cases, "validate_water", __doc__))

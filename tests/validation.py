@@ -114,6 +114,16 @@ def slope(xs, ys):
     return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx) ** 2 for x in xs)
 
 
+def bound(target):
+    """A target as an operator and a number: 3 is (<=, 3); others are given as such pairs."""
+    return target if isinstance(target, tuple) else ("<=", target)
+
+
+def meets(value, target):
+    sign, limit = bound(target)
+    return {"<=": value <= limit, "<": value < limit, ">=": value >= limit}[sign]
+
+
 def main(cases, name, doc):
     """Makes the runs that the rows ask for, in parallel, and writes build/NAME.csv."""
     p = argparse.ArgumentParser(description=doc.split("\n")[0])
