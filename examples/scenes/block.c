@@ -63,8 +63,9 @@ static sph_status build(sph_sim *sim, const double *p)
 
 static double end(const double *p) { return 0.03 * p[STRETCH_SLOW] / p[STRETCH_SPEED]; } /* at a strain of 0.06/size */
 
-static const char *const column[] = {"time",      "strain",        "p1_K",     "kinetic", "elastic",   "plastic_work", "peak_K",
-                                     "hoop_over_exact", "gas_mean_p", "damage_mean", "full_particles", "full_x", "full_y", "full_from_rim"};
+static const char *const column[] = {"time",         "strain",          "p1_K",       "kinetic",     "elastic",
+                                     "plastic_work", "peak_K",          "hoop_over_exact", "gas_mean_p", "damage_mean",
+                                     "full_particles", "full_x",        "full_y",     "full_from_rim"};
 
 /* what the hoop stress at top and bottom of the hole is, over 3.0546 p1 + p (tests/refdata/fe_hole.csv; p adds p) */
 static double hoop(const sph_sim *sim, const stretch *b, double p1, double gas)
@@ -101,7 +102,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     stretch_look(sim, &b, &d);
     const double t = sph_time(sim);
     const double values[] = {t, 2 * stretch_drawn(p, t) / p[SIZE], p1, o.kinetic, o.elastic + o.internal, o.plastic_work,
-                             stretch_peak(sim, &b, 0), b.has_hole ? hoop(sim, &b, p1, gas) : 0, gas, d.mean, d.full, d.x, d.y, d.near};
+                             stretch_peak(sim), b.has_hole ? hoop(sim, &b, p1, gas) : 0, gas, d.mean, d.full, d.x, d.y, d.near};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];
 }

@@ -3,8 +3,9 @@
    7 km wide and 4.9 km high with an elliptical chamber, semi-axes 1.75 km by 0.8 or 1.12 km, its middle 1.4 km deep; particles
    50 m apart, flaws of radius 75 m. Lengths here are in km: Gray's T = 1e7 (cm/c0), when the ends stop and the pressure goes
    from 5e-5 to 1e-4 rho c0^2, is 100 km/c0. The chamber's pressure is a load on its rim (stretch_load): Gray's gas, without what
-   flows into cracks. The flaws: the weakest at a strain of 6e-4, as he says; his k = 1.4e19 gives that for no unit of length.
-   `slow` makes everything slower: stretching and pressure are then the same, but further from sound. */
+   flows into cracks. The flaws: k = 1.4e19 a cm^2, as elsewhere in the thesis; the weakest then fails at a strain of 2.5e-4. He
+   writes 6e-4 (k=0 takes that), which the pressure alone never reaches. `slow` makes everything slower: stretching and pressure
+   are then the same, but further from sound. */
 #include "stretch.h"
 #if SPH_DIM == 2
 
@@ -14,16 +15,17 @@ enum { HALF_HEIGHT = BREAK_COMMON, SPACING, BEFORE, AFTER, WEAKEST, AT, RISE, AF
 #define DEPTH 1.4
 
 static const scene_param param[PARAMS] = {
-    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.8, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0.85, 0.01, 0.999),
+    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.8, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0.85,
+                        0.01, 0.999),
     STRETCH_PARAMS(5e-6, 10, 100),
-    BREAK_PARAMS(SPH_BENZ_ASPHAUG, 0, 0.075),
+    BREAK_PARAMS(SPH_BENZ_ASPHAUG_GRAY, 1.4e29, 0.075),
     {"high", "km", "semi-axis of the chamber upwards", 0.8, 0.1, 1.3, SCENE_NUMBER},
     {"spacing", "km", "of the particles", 0.05, 0.001, 0.5, SCENE_NUMBER},
     {"before", "rho c0^2", "pressure in the chamber at first", 5e-5, 0, 1, SCENE_NUMBER},
     {"after", "rho c0^2", "and later", 1e-4, 0, 1, SCENE_NUMBER},
     {"weakest", "-", "strain at which the weakest flaw fails, if k is 0", 6e-4, 1e-9, 1, SCENE_NUMBER},
     {"at", "km/c0", "when the pressure begins to rise", 100, 0, 1e6, SCENE_NUMBER},
-    {"rise", "km/c0", "how long each rise of the pressure takes", 5, 1e-3, 1e6, SCENE_NUMBER},
+    {"rise", "km/c0", "how long each rise of the pressure takes", 0.5, 1e-3, 1e6, SCENE_NUMBER},
     {"afterwards", "km/c0", "how long the run goes on after that", 60, 0, 1e6, SCENE_NUMBER},
 };
 
@@ -71,8 +73,9 @@ static sph_status build(sph_sim *sim, const double *p)
 
 static double end(const double *p) { return (p[AT] + p[AFTERWARDS]) * p[STRETCH_SLOW]; }
 
-static const char *const column[] = {"time",        "strain",         "pressure", "p1_K",        "kinetic",    "elastic",   "plastic_work", "peak_K",
-                                     "damage_mean", "full_particles", "full_x",   "full_surface", "full_left", "full_right", "full_below", "dome_km"};
+static const char *const column[] = {"time",   "strain",      "pressure",       "p1_K",   "kinetic",      "elastic",   "plastic_work",
+                                     "peak_K", "damage_mean", "full_particles", "full_x", "full_surface", "full_left", "full_right",
+                                     "full_below", "dome_km"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {
@@ -98,9 +101,9 @@ static void history(const sph_sim *sim, const double *p, double *row)
         else
             below++;
     }
-    const double values[] = {t, 2 * stretch_drawn(p, t) / WIDE, pressure(p, t), stretch_end_stress(sim, 0.45 * WIDE), o.kinetic,
-                             o.elastic + o.internal, o.plastic_work, stretch_peak(sim, &b, 0), d.mean, d.full, d.x, surface, left, right,
-                             below, dome + 0.5 * b.dx};
+    const double strain = 2 * stretch_drawn(p, t) / WIDE, p1 = stretch_end_stress(sim, 0.45 * WIDE);
+    const double values[] = {t, strain, pressure(p, t), p1, o.kinetic, o.elastic + o.internal, o.plastic_work, stretch_peak(sim),
+                             d.mean, d.full, d.x, surface, left, right, below, dome + 0.5 * b.dx};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];
 }

@@ -10,7 +10,8 @@ enum { DEPTH = STRETCH_COMMON, N, WIDE, HIGH, REACH, SETTLE, PARAMS };
 #define STATIONS 41 /* along the surface, every a/4 */
 
 static const scene_param param[PARAMS] = {
-    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_CORRECTED, SPH_NO_ARTIFICIAL_STRESS, 0.5, 0, 0.99),
+    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_CORRECTED, SPH_NO_ARTIFICIAL_STRESS, 0.5,
+                        0, 0.99),
     STRETCH_PARAMS(1e-5, 15, 40),
     {"depth", "a", "of the chamber's middle below the surface", 1.9, 1.1, 100, SCENE_NUMBER},
     {"n", "-", "particles to a", 10, 2, 1000, SCENE_WHOLE},

@@ -41,11 +41,11 @@ typedef struct stretch {
 /* domain, faces and capacities of a scene of such a block */
 #define stretch_configure SPH_NAME(stretch_configure)
 void stretch_configure(const double *p, const stretch *b, sph_config *c);
-/* the damage's part of a configuration, for n particles */
+/* the damage's part of a configuration whose max_particles is set */
 #define break_configure SPH_NAME(break_configure)
 void break_configure(const double *p, sph_config *c);
 
-/* Rock, ends and gas. p must live as long as the simulation: the ends' motion reads it. Sets: STRETCH_ROCK .. */
+/* Rock, ends and gas. p must live as long as the simulation: the ends' motion reads it. Gas goes with whole blocks. */
 enum { STRETCH_ROCK, STRETCH_RIGHT, STRETCH_LEFT, STRETCH_GAS };
 #define stretch_build SPH_NAME(stretch_build)
 sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const sph_solid *rock, const sph_flaws *flaws);
@@ -57,9 +57,9 @@ double stretch_drawn(const double *p, double t);
 /* mean sxx of the rock with from <= |x| that is not held: the force on an end over its length, once all is at rest */
 #define stretch_end_stress SPH_NAME(stretch_end_stress)
 double stretch_end_stress(const sph_sim *sim, double from);
-/* largest sxx + syy of a particle of rock, the greatest distance from a hole's rim being `near` (0: anywhere) */
+/* largest sxx + syy of a particle of rock */
 #define stretch_peak SPH_NAME(stretch_peak)
-double stretch_peak(const sph_sim *sim, const stretch *b, double near);
+double stretch_peak(const sph_sim *sim);
 
 /* Stress xx, yy, xy at a place from the rock within `reach` of it, images in the mirror planes included, by a fit of
    a quadratic polynomial with weights (1 - q^2)^3. Where there are too few particles for that, the nearest one's. */
