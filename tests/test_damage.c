@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_damage.c: flaws and the damage that grows from them, in 2-D and 3-D: growth in closed form, where it stops, what a broken
-   particle carries, the statistics of flaws, and one pinned digest of a list of them for all builds and machines. */
+/* test_damage.c: flaws and the damage that grows from them, in 2-D and 3-D: growth in closed form, where it stops, what
+   a broken particle carries, the statistics of flaws, and one pinned digest of a list of them for all builds and
+   machines. */
 #include "bodies.h"
 
 #define DX 0.1
@@ -40,6 +41,7 @@ static uint32_t active_of(const sph_sim *sim, uint32_t id, double strain, uint32
         active += (double)list[k] < strain;
     return active;
 }
+static double n_log_n(void) { return pow(EDGE, SPH_DIM) * log(pow(EDGE, SPH_DIM)); } /* of the block's particles */
 static double root(double d) { return pow(d, 1.0 / SPH_DIM); }
 
 /* all flaws active: D^(1/DIM) = flaws RATE t until the particle is broken, by every integrator */
@@ -71,12 +73,13 @@ static void damage_grows_as_active_flaws_do(void **state)
     }
 }
 
-/* a strain between thresholds: only what is active grows, to (active/flaws)^(1/DIM) and no further; Gray's strain is another */
+/* a strain between thresholds: only what is active grows, to (active/flaws)^(1/DIM) and no further; Gray's strain is
+   another */
 static void damage_stops_at_the_share_of_active_flaws(void **state)
 {
     (void)state;
     for (uint32_t damage = SPH_BENZ_ASPHAUG; damage <= SPH_BENZ_ASPHAUG_GRAY; damage++) {
-        const double volume = pow(EDGE * DX, SPH_DIM), e = youngs(SOFT_MU, SOFT_BULK), n_ln_n = pow(EDGE, SPH_DIM) * log(pow(EDGE, SPH_DIM));
+        const double volume = pow(EDGE * DX, SPH_DIM), e = youngs(SOFT_MU, SOFT_BULK), n_ln_n = n_log_n();
         const sph_flaws flaws = {n_ln_n / volume / pow(0.05, 3), 3, 21}; /* thresholds up to 0.05 */
         const double sigma = 0.03 * e, first = damage == SPH_BENZ_ASPHAUG ? 0.03 : sigma / (2 * SOFT_MU);
         sph_sim *sim = stretched(damage, SPH_KICK_DRIFT_KICK, 0.03, &flaws);
@@ -97,7 +100,8 @@ static void damage_stops_at_the_share_of_active_flaws(void **state)
                 const double strain = p.damage < 1 ? first / (1 + p.damage) : 0;
                 const uint32_t now = active_of(sim, p.id, strain, &n);
                 assert_true(root(p.damage) <= root(active / (double)n) * (1 + 8 * EPS));
-                assert_true(p.damage == 1 || root(p.damage) >= root(now / (double)n) * (1 - 8 * EPS)); /* all that may has grown */
+                /* all that may has grown */
+                assert_true(p.damage == 1 || root(p.damage) >= root(now / (double)n) * (1 - 8 * EPS));
                 stopped += p.damage > 0 && p.damage < 1;
             }
         }
@@ -112,7 +116,7 @@ static void the_largest_principal_stress_counts(void **state)
     (void)state;
     for (int turn = 0; turn < 8; turn++) {
         const double e = youngs(SOFT_MU, SOFT_BULK), s = 0.02 * e;
-        const double volume = pow(EDGE * DX, SPH_DIM), n_ln_n = pow(EDGE, SPH_DIM) * log(pow(EDGE, SPH_DIM));
+        const double volume = pow(EDGE * DX, SPH_DIM), n_ln_n = n_log_n();
         const sph_flaws flaws = {n_ln_n / volume / pow(0.04, 2), 2, 3};
         sph_sim *sim = stretched(SPH_BENZ_ASPHAUG, SPH_KICK_DRIFT_KICK, 0, &flaws);
         /* principal stresses s, -2s/3 (and in 3-D -s/3): the sum makes the pressure */
@@ -235,7 +239,8 @@ static void flaws_are_the_same_on_every_machine(void **state)
         fail_msg("digest %08lx%08lx", (unsigned long)(h >> 32), (unsigned long)(h & 0xffffffffu));
 }
 
-/* every particle at least one and at most 20, in rising order; of all draws, those below eps are k V eps^m to sampling error */
+/* every particle at least one and at most 20, in rising order; of all draws, those below eps are k V eps^m to sampling
+   error */
 static void flaws_follow_weibull(void **state)
 {
     (void)state;
@@ -261,7 +266,8 @@ static void flaws_follow_weibull(void **state)
         }
         /* draws beyond N ln N, until nobody is without, raise all counts alike */
         const double draws = MANY * log(MANY), more = total / draws;
-        print_message("seed %lu: %u flaws of %.0f; below quarters of them %u %u %u\n", (unsigned long)seed, total, draws, low[0], low[1],
+        print_message("seed %lu: %u flaws of %.0f; below quarters of them %u %u %u\n", (unsigned long)seed, total,
+                      draws, low[0], low[1],
                       low[2]);
         assert_true(more > 0.99 && more < 1.8);
         for (int e = 0; e < 3; e++)
