@@ -28,6 +28,7 @@ static void configure(const double *p, sph_config *c)
         c->lo[k] = -c->hi[k];
     }
     c->max_sets = 2;
+    c->max_stretch = 1.6; /* bonds at the inner rims are drawn to more than 1.5 times the support */
 }
 
 static sph_status build(sph_sim *sim, const double *p)
