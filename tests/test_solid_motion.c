@@ -33,7 +33,7 @@ static void motion_of(uint32_t motion, double t, double *x, double *v)
 /* a small block, stressless, in gravity */
 static sph_sim *held_block(uint32_t form, uint32_t integrator, uint32_t motion, uint32_t axes, uint32_t *group)
 {
-    sph_config c = solid_config(form, integrator, 1, DX);
+    sph_config c = solid_config(form, integrator, 0.5, DX);
     sph_solid m = {.shear = MU, .held = axes};
     uint32_t set;
     c.dt = 1e-4;
