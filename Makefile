@@ -78,7 +78,7 @@ build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all examples demo test golden bits knobs bench size validate validate-solids coverage lint help clean tests
+.PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
@@ -301,8 +301,8 @@ $(BUILD)/size_arena: $(BUILD)/obj/tests/size_main.o $(BUILDS:%=$(BUILD)/obj/%/te
 
 validate: all
 	$(Q)$(PYTHON) tests/validate.py --tool $(BUILD)/sph
-validate-solids: all
-	$(Q)$(PYTHON) tests/validate_solids.py --tool $(BUILD)/sph
+validate-water validate-solids: validate-%: all
+	$(Q)$(PYTHON) tests/validate_$*.py --tool $(BUILD)/sph
 
 coverage:
 	$(Q)BUILD=$(BUILD)/coverage GCC="$(GCC)" GCOV="$(GCOV)" MAKE="$(MAKE)" OUT=$(BUILD) sh tests/coverage.sh
@@ -331,7 +331,7 @@ help:
 	'make slices     the longest slice on an emulated Cortex-M4F               -> $(BUILD)/slices.csv' \
 	'make baremetal  a tank at a fixed rate and a dam break in 192 KiB, on the same -> $(BUILD)/baremetal.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
-	'make validate-solids  the scenes of solids against published figures      -> $(BUILD)/validate_solids.csv' \
+	'make validate-water, make validate-solids  a part of them' \
 	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
 	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
 	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \

@@ -88,14 +88,15 @@ static void add_particle_totals(const sph_sim *sim, const sph_buffer *b, uint32_
     o->internal += m * compression_energy(sim, s, (double)b->rho[0][i]);
 #if SPH_WITH_SOLID
     if (sph_is_solid(s)) {
+        const sph_material *rock = sph_material_of(sim, s);
         double sigma[6], w = 0, p, ep = SPH_HAS_YIELD && b->plastic[0] ? (double)b->plastic[0][i] : 0;
         const double whole = 1 - sph_stress_of(sim, b, i, sigma);
         p = (sigma[0] + sigma[1] + sigma[2]) / 3;
         for (int k = 0; k < 6; k++)
             w += (k < 3 ? (sigma[k] - p) * (sigma[k] - p) : 2 * sigma[k] * sigma[k]);
-        if (s->shear > 0 && whole > 0)
-            o->elastic += m / s->rho0 * w / (4 * s->shear * whole); /* (1 - D) S:S/(4 mu) */
-        o->plastic_work += m / s->rho0 * ep * (s->yield + 0.5 * s->hardening * ep);
+        if (rock->shear > 0 && whole > 0)
+            o->elastic += m / s->rho0 * w / (4 * rock->shear * whole); /* (1 - D) S:S/(4 mu) */
+        o->plastic_work += m / s->rho0 * ep * (rock->yield + 0.5 * rock->hardening * ep);
         o->solid++;
     }
 #endif

@@ -56,7 +56,7 @@ static sph_real flaw_strain(const sph_sim *sim, const sph_set *set, const sph_bu
     (void)sph_stress_of(sim, b, i, at);
     for (int k = 0; k < 6; k++)
         s[k] = (sph_real)at[k];
-    const sph_real most = largest_principal(s), mu = set->shear_r, bulk = (sph_real)(set->rho0 * set->c0 * set->c0);
+    const sph_real most = largest_principal(s), mu = sph_material_of(sim, set)->shear_r, bulk = (sph_real)(set->rho0 * set->c0 * set->c0);
     if (!(most > 0) || !(whole > 0))
         return 0;
     const sph_real d = 1 - whole;
@@ -91,7 +91,7 @@ void sph_grow_damage(sph_sim *sim, uint32_t first, uint32_t last)
         const sph_real most = active == flaws ? 1 : root_of((sph_real)active / (sph_real)flaws);
         if (root >= most) /* also without any active flaw */
             continue;
-        const sph_real grown = root + (sph_real)(sim->dt * set->crack_rate) * (sph_real)active;
+        const sph_real grown = root + (sph_real)(sim->dt * sph_material_of(sim, set)->crack_rate) * (sph_real)active;
         b->damage[0][i] = grown < most ? grown : most;
     }
 }

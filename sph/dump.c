@@ -21,7 +21,7 @@
      array      all elements' first component, then all elements' second, ...
      record     for each field 32 bytes: name 16, unit 12, u8 type (4, 6 or 7), u8 components, u16 0;
                 then the rows: 8 bytes for each component of each field
-     order      scene, sets, groups, run, state (records); arrays; "end": one u32, the CRC-32 of the CRCs of the
+     order      scene, sets, materials (with solids), groups, run, state (records); arrays; "end": one u32, the CRC-32 of the CRCs of the
                 preamble and of header and payload of every section before it, in order
 
    CRC-32 is that of IEEE 802.3 (zlib). Positions are integers, also in a reduced dump: x = lo + quantum * pos. `rho`
@@ -47,7 +47,7 @@ enum { RECORD, U8, U32, I32, I64, F32, F64, U64 };
 
 /* ---- records: which members go into them ---- */
 
-enum { M_DOUBLE, M_TIME, M_REAL, M_POS, M_U64, M_U32, M_BOOL }; /* a time may be infinite */
+enum { M_DOUBLE, M_TIME, M_REAL, M_POS, M_U64, M_U32, M_U8, M_BOOL }; /* a time may be infinite */
 
 typedef struct field {
     const char *name, *unit;
@@ -97,9 +97,7 @@ static const field set_fields[] = {
     {"role", "1", M_U32, 1, AT(sph_set, role)},
     {"kind", "1", M_U32, 1, AT(sph_set, kind)},
     {"group", "1", M_U32, 1, AT(sph_set, group)},
-    {"eos", "1", M_U32, 1, AT(sph_set, eos)},
-    {"body", "1", M_U32, 1, AT(sph_set, body)},
-    {"held", "1", M_U32, 1, AT(sph_set, held)},
+    {"eos", "1", M_U8, 1, AT(sph_set, eos)},
     {"compressible", "1", M_BOOL, 1, AT(sph_set, compressible)},
     {"no_slip", "1", M_BOOL, 1, AT(sph_set, no_slip)},
     {"corner", "1", M_BOOL, 1, AT(sph_set, corner)},
@@ -107,10 +105,6 @@ static const field set_fields[] = {
     {"rho0", "kg/m^3", M_DOUBLE, 1, AT(sph_set, rho0)},
     {"sound_speed", "m/s", M_DOUBLE, 1, AT(sph_set, c0)},
     {"pressure_scale", "Pa", M_REAL, 1, AT(sph_set, b_r)},
-    {"shear", "Pa", M_DOUBLE, 1, AT(sph_set, shear)},
-    {"yield", "Pa", M_DOUBLE, 1, AT(sph_set, yield)},
-    {"hardening", "Pa", M_DOUBLE, 1, AT(sph_set, hardening)},
-    {"crack_rate", "1/s", M_DOUBLE, 1, AT(sph_set, crack_rate)},
     {"strength", "1", M_DOUBLE, 1, AT(sph_set, strength)},
     {"origin", "m", M_DOUBLE, SPH_DIM, AT(sph_set, origin)}, /* from lo */
     {"normal", "1", M_DOUBLE, SPH_DIM, AT(sph_set, normal)},
@@ -118,6 +112,16 @@ static const field set_fields[] = {
     {"half", "m", M_DOUBLE, 2, AT(sph_set, half)},
     {"thick", "m", M_DOUBLE, 1, AT(sph_set, thick)},
 };
+#if SPH_WITH_SOLID
+static const field material_fields[] = {
+    {"shear", "Pa", M_DOUBLE, 1, AT(sph_material, shear)},
+    {"yield", "Pa", M_DOUBLE, 1, AT(sph_material, yield)},
+    {"hardening", "Pa", M_DOUBLE, 1, AT(sph_material, hardening)},
+    {"crack_rate", "1/s", M_DOUBLE, 1, AT(sph_material, crack_rate)},
+    {"body", "1", M_U32, 1, AT(sph_material, body)},
+    {"held", "1", M_U32, 1, AT(sph_material, held)},
+};
+#endif
 static const field group_fields[] = {
     {"moved", "quantum", M_POS, SPH_DIM, AT(sph_group_state, moved)},
     {"velocity", "m/s", M_DOUBLE, SPH_DIM, AT(sph_group_state, vel)},
@@ -159,6 +163,9 @@ _Static_assert(sizeof(sph_scalars) == 8 * (4 + 2 * SPH_POWERS) + 4 * 5 + 4 + 3 *
 
 static const record scene_record = {"scene", scene_fields, COUNT_OF(scene_fields), sizeof(sph_sim), true};
 static const record set_record = {"sets", set_fields, COUNT_OF(set_fields), sizeof(sph_set), true};
+#if SPH_WITH_SOLID
+static const record material_record = {"materials", material_fields, COUNT_OF(material_fields), sizeof(sph_material), true};
+#endif
 static const record group_record = {"groups", group_fields, COUNT_OF(group_fields), sizeof(sph_group_state), false};
 static const record run_record = {"run", run_fields, COUNT_OF(run_fields), sizeof(run), false};
 static const record state_record = {"state", state_fields, COUNT_OF(state_fields), sizeof(sph_scalars), false};
@@ -386,7 +393,7 @@ static uint32_t member_code(uint32_t member) { return member <= M_REAL ? F64 : m
 
 static size_t member_bytes(uint32_t member)
 {
-    static const uint8_t size[] = {8, 8, sizeof(sph_real), sizeof(sph_pos), 8, 4, sizeof(bool)};
+    static const uint8_t size[] = {8, 8, sizeof(sph_real), sizeof(sph_pos), 8, 4, 1, sizeof(bool)};
     return size[member];
 }
 
@@ -407,6 +414,7 @@ static uint64_t load_member(uint32_t member, const unsigned char *p)
         return u;
     case M_POS: memcpy(&q, p, sizeof q); return (uint64_t)(int64_t)q;
     case M_U32: memcpy(&w, p, sizeof w); return w;
+    case M_U8: return *p;
     case M_BOOL: memcpy(&b, p, sizeof b); return b;
     default: memcpy(&u, p, 8); return u;
     }
@@ -429,6 +437,7 @@ static bool store_member(uint32_t member, uint64_t u, unsigned char *p)
         return (double)r == d;
     case M_POS: memcpy(p, &q, sizeof q); return (uint64_t)(int64_t)q == u;
     case M_U32: memcpy(p, &w, sizeof w); return w == u;
+    case M_U8: *p = (unsigned char)u; return u < 256;
     case M_BOOL: memcpy(p, &b, sizeof b); return u <= 1;
     case M_TIME: memcpy(p, &u, 8); return d == d;
     case M_DOUBLE: memcpy(p, &u, 8); return sph_finite(d);
@@ -487,6 +496,17 @@ static bool move_record(stream *s, const record *r, uint32_t rows, const void *f
                       to ? (unsigned char *)to + i * r->stride : NULL))
             return false;
     return move_crc(s, r->name);
+}
+
+/* the materials of a scene with solids: a restore asks for equal ones, as with sets */
+static bool move_materials(stream *s, const sph_sim *sim)
+{
+#if SPH_WITH_SOLID
+    if (sph_has_solids(&sim->cfg))
+        return move_record(s, &material_record, sim->sets, sim->material, NULL);
+#endif
+    (void)s, (void)sim;
+    return true;
 }
 
 /* ---- arrays ---- */
@@ -612,7 +632,7 @@ static bool write_all(stream *s, const sph_sim *sim, uint32_t fields, uint64_t b
     memcpy(r.gravity, sim->cfg.gravity, sizeof r.gravity);
     return write_preamble(s, (fields & SPH_DUMP_FULL) != 0, bytes, sections) &&
            move_record(s, &scene_record, 1, sim, NULL) && move_record(s, &set_record, sim->sets, sim->set, NULL) &&
-           move_record(s, &group_record, sim->groups, sim->now.group, NULL) &&
+           move_materials(s, sim) && move_record(s, &group_record, sim->groups, sim->now.group, NULL) &&
            move_record(s, &run_record, 1, &r, NULL) && move_record(s, &state_record, 1, &sim->now, NULL) &&
            move_arrays(s, sim, &sim->buf[sim->cur], fields, sim->now.count) && move_end(s);
 }
@@ -763,7 +783,7 @@ static bool read_all(stream *s, sph_sim *sim, uint32_t spare, run *r)
     uint64_t bytes = 0, sections = 0;
     sim->next = sim->now;
     if (!read_preamble(s, &bytes, &sections) || !move_record(s, &scene_record, 1, sim, NULL) ||
-        !move_record(s, &set_record, sim->sets, sim->set, NULL) ||
+        !move_record(s, &set_record, sim->sets, sim->set, NULL) || !move_materials(s, sim) ||
         !move_record(s, &group_record, sim->groups, NULL, sim->next.group) ||
         !move_record(s, &run_record, 1, NULL, r) || !move_record(s, &state_record, 1, NULL, &sim->next) ||
         !check_scalars(s, sim, r) || !move_arrays(s, sim, &sim->buf[spare], SPH_DUMP_FULL, sim->next.count) ||

@@ -30,7 +30,7 @@ typedef sph_factors factors;
 /* The predictor-corrector evaluates forces once, at the predicted state, and keeps them: on an oscillation w it multiplies
    the amplitude by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu + z/2 = 0, z = i w dt). Sound of the shortest waves
    grows unless dissipation, whose effect a step goes as dt, is stronger: so the largest Courant number goes as its cube
-   root. 0.22 is what a still tank of 30 particles stands with alpha = 0.01 alone (tests/validate.py, G2). */
+   root. 0.22 is what a still tank of 30 particles stands with alpha = 0.01 alone (tests/validate_water.py, G2). */
 #define PC_COURANT 0.22
 #define PC_DISSIPATION (0.01 / 8) /* nu/(h c) of artificial viscosity with alpha 0.01 in 2-D */
 #define PC_COURANT_LEAST 0.05
@@ -105,6 +105,7 @@ typedef struct home {
     vreal x[SPH_DIM], v[SPH_DIM], rho, a, iv;
 #if SPH_WITH_SOLID
     vreal t[SPH_NL], r[SPH_NT], k[SPH_DIM], u[SPH_DIM], body;
+    const sph_solid_tile *tile; /* of its candidates */
 #endif
 } home;
 
@@ -123,8 +124,10 @@ SPH_INLINE home spread_home(const sph_tile *t, uint32_t h)
 }
 
 #if SPH_WITH_SOLID
-SPH_INLINE void spread_solid(const sph_solid_homes *t, uint32_t h, const choice *c, home *o)
+SPH_INLINE void spread_solid(const sph_solid_scratch *solid, uint32_t h, const choice *c, home *o)
 {
+    const sph_solid_homes *t = &solid->home;
+    o->tile = &solid->tile;
     SPH_UNROLL
     for (int k = 0; k < SPH_NL; k++)
         o->t[k] = v_set(t->t[k][h]);
@@ -173,10 +176,9 @@ SPH_INLINE vreal power_of(vreal f, uint32_t n)
 }
 
 /* what a stress tensor gives: acceleration (T_i + T_j + (R_i + R_j) f^n) . K, and m v_ij (x) K for the velocity gradient */
-SPH_INLINE void solid_pair(const choice *c, const factors *f, const home *h, const sph_thread *th, const sph_tile *t, uint32_t j,
-                           uint32_t nv, bool wall, vreal q, vreal mg, vreal iv, const vreal *kx, const vreal *dv, vreal (*s)[SPH_NV])
+SPH_INLINE void solid_pair(const choice *c, const factors *f, const home *h, const sph_tile *t, uint32_t j, uint32_t nv, bool wall, vreal q, vreal mg, vreal iv, const vreal *kx, const vreal *dv, vreal (*s)[SPH_NV])
 {
-    const sph_solid_tile *st = &th->solid;
+    const sph_solid_tile *st = h->tile;
     const bool weak = sph_weak_scheme(c->scheme);
     const vreal wl = weak ? mg * iv : mg, w = weak ? wl * h->iv : mg;
     vreal fn = v_set(0);
@@ -218,16 +220,17 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
         kx[k] = dx[k] = h->x[k] - v_load(t->x[k] + j);
     const vreal r2 = dot(dx, dx);
     vreal k2 = r2;
+    (void)kx; /* read by solids only */
 #if SPH_HAS_TOTAL
     vint apart = v_set_int(0); /* of two bodies: no stress between them */
     if (c->solid && c->total && !wall) {
-        const vreal other = v_load(th->solid.body + j), half = v_set((sph_real)0.5);
+        const vreal other = v_load(h->tile->body + j), half = v_set((sph_real)0.5);
         const vint same = v_less(half, h->body) & v_equal(h->body, other);
         apart = v_less(half, h->body) & v_less(half, other) & ~same;
         vreal to[SPH_DIM];
         SPH_UNROLL
         for (int k = 0; k < SPH_DIM; k++) {
-            to[k] = v_select(same, h->k[k] - v_load(th->solid.k[k] + j), dx[k]);
+            to[k] = v_select(same, h->k[k] - v_load(h->tile->k[k] + j), dx[k]);
             kx[k] = v_where(~apart, to[k]);
         }
         k2 = dot(to, to);
@@ -263,7 +266,7 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
     vreal force = v_set(0);
 #if SPH_WITH_SOLID
     if (c->solid)
-        solid_pair(c, f, h, th, t, j, nv, wall, q, mg, iv, kx, dv, s);
+        solid_pair(c, f, h, t, j, nv, wall, q, mg, iv, kx, dv, s);
     else
 #endif
     if (!weak)
@@ -352,13 +355,13 @@ SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph
     }
 }
 
-SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, uint32_t h, bool wall)
+SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, const sph_solid_scratch *solid, uint32_t h, bool wall)
 {
     const sph_tile *t = wall ? &th->ghost : &th->fluid;
     home o = spread_home(&th->home, h);
 #if SPH_WITH_SOLID
     if (c->solid)
-        spread_solid(&th->solid_home, h, c, &o);
+        spread_solid(solid, h, c, &o);
 #endif
     const uint32_t n = t->n;
     vreal s[SPH_SUMS][SPH_NV];
@@ -390,15 +393,15 @@ static __attribute__((noinline)) void force_any(const choice *c, const factors *
     choice own = *c;
     own.solid = false;
     if (SPH_SMALL)
-        force_home(&own, f, t, h, SPH_HAS_LAYERED_WALLS && wall);
+        force_home(&own, f, t, NULL, h, SPH_HAS_LAYERED_WALLS && wall);
     else if (SPH_HAS_LAYERED_WALLS && wall)
-        force_home(&own, f, t, h, true);
+        force_home(&own, f, t, NULL, h, true);
     else
-        force_home(&own, f, t, h, false);
+        force_home(&own, f, t, NULL, h, false);
 }
 
 #if SPH_WITH_SOLID
-static __attribute__((noinline)) void force_solid(const choice *c, const factors *f, sph_thread *t, uint32_t h, bool wall)
+static __attribute__((noinline)) void force_solid(const choice *c, const factors *f, sph_thread *t, const sph_solid_scratch *solid, uint32_t h, bool wall)
 {
     choice own = *c;
     own.solid = true;
@@ -406,11 +409,11 @@ static __attribute__((noinline)) void force_solid(const choice *c, const factors
     own.hat = SPH_HAS_HAT && own.hat;
     own.repulsion = SPH_HAS_REPULSION ? own.repulsion : 0;
     if (SPH_SMALL)
-        force_home(&own, f, t, h, SPH_HAS_LAYERED_WALLS && wall);
+        force_home(&own, f, t, solid, h, SPH_HAS_LAYERED_WALLS && wall);
     else if (SPH_HAS_LAYERED_WALLS && wall)
-        force_home(&own, f, t, h, true);
+        force_home(&own, f, t, solid, h, true);
     else
-        force_home(&own, f, t, h, false);
+        force_home(&own, f, t, solid, h, false);
 }
 #endif
 
@@ -426,7 +429,7 @@ static __attribute__((noinline)) void force_solid(const choice *c, const factors
         static const choice c = {.kernel = kernel_, .viscosity = visc, .diffusion = diff}; /* standard scheme */     \
         const factors own = *f;                                                                             \
         for (uint32_t h = 0; h < homes; h++)                                                                \
-            force_home(&c, &own, t, h, false);                                                              \
+            force_home(&c, &own, t, NULL, h, false);                                                              \
     }
 SPH_FAST_LIST(SPH_FAST_FN)
 #undef SPH_FAST_FN
@@ -440,13 +443,13 @@ SPH_FAST_LIST(SPH_FAST_FN)
     X(w2_r, SPH_WENDLAND_C2, 4, false)                                                                      \
     X(w2_t, SPH_WENDLAND_C2, 0, true)
 #define SPH_FAST_FN(name, kernel_, power, total_)                                                           \
-    static __attribute__((noinline)) void solid_##name(const factors *f, sph_thread *t, uint32_t homes)     \
+    static __attribute__((noinline)) void solid_##name(const factors *f, sph_thread *t, const sph_solid_scratch *solid, uint32_t homes) \
     {                                                                                                       \
         static const choice c = {.kernel = kernel_, .viscosity = SPH_ARTIFICIAL, .solid = true, .total = SPH_HAS_TOTAL && (total_), \
                                  .repulsion = power};                                                       \
         const factors own = *f;                                                                             \
         for (uint32_t h = 0; h < homes; h++)                                                                \
-            force_home(&c, &own, t, h, false);                                                              \
+            force_home(&c, &own, t, solid, h, false);                                                              \
     }
 SPH_FAST_SOLIDS(SPH_FAST_FN)
 #undef SPH_FAST_FN
@@ -466,7 +469,7 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
         SPH_IS(c->viscosity, ARTIFICIAL) && c->diffusion == SPH_NO_DIFFUSION) {
 #define SPH_FAST_TRY(name, k, n, whole)                                                                     \
     if (c->kernel == (k) && power == (n) && sph_is_total(c) == (whole)) {                                   \
-        solid_##name(&sim->fac, t, homes);                                                                  \
+        solid_##name(&sim->fac, t, sph_solid_scratch_of(sim, t), homes);                                                                  \
         return;                                                                                             \
     }
         SPH_FAST_SOLIDS(SPH_FAST_TRY)
@@ -496,7 +499,7 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
 #endif
 #if SPH_WITH_SOLID
         if (solid) {
-            force_solid(&ch, &sim->fac, t, h, role == SPH_ROLE_GHOST);
+            force_solid(&ch, &sim->fac, t, sph_solid_scratch_of(sim, t), h, role == SPH_ROLE_GHOST);
             continue;
         }
 #endif
@@ -592,7 +595,7 @@ static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     if ((SPH_HAS_EXTRAS && f->extras) || (SPH_HAS_FORCE_WALLS && sim->has_force_wall))
         finish_extras(sim, t, h, acc);
 #if SPH_HAS_HELD
-    if (set->held)
+    if (sph_held(sim, set))
         hold(sim, set, i, acc);
 #endif
     SPH_UNROLL

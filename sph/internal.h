@@ -64,19 +64,24 @@ typedef struct sph_buffer {
 /* one particle set: constants that its particles share */
 typedef struct sph_set {
     uint32_t role, kind, group; /* group: SPH_MAX_GROUPS if it moves by forces alone */
-    uint32_t eos, body, held;   /* held: bits 1 << axis */
     bool compressible, no_slip, corner;
+    uint8_t eos;
     double mass, rho0, c0;
-    double shear, yield, hardening, crack_rate; /* solids; crack_rate: crack speed over flaw radius, 1/s */
     double strength;
     double origin[SPH_DIM];     /* middle of the wall's face at displacement 0, from the domain's low corner (m) */
     double normal[SPH_DIM];     /* into the fluid */
     double tangent[SPH_DIM];    /* 3-D: one of the two in-plane directions */
     double half[2], thick;      /* wall region behind the face: half extents along tangents, depth (m) */
     sph_pos low[SPH_DIM], high[SPH_DIM]; /* box around that region, quanta, at displacement 0 */
-    sph_real shear_r;
     sph_real mass_r, rho0_r, inv_rho0_r, b_r; /* what the sweep reads; b: pressure scale of the equation of state */
 } sph_set;
+
+/* what a set of solid has besides */
+typedef struct sph_material {
+    double shear, yield, hardening, crack_rate; /* Pa; crack_rate: crack speed over flaw radius, 1/s */
+    sph_real shear_r;
+    uint32_t body, held; /* held: bits 1 << axis */
+} sph_material;
 
 /* wall sets that move or vanish together */
 typedef struct sph_group {
@@ -170,6 +175,8 @@ struct sph_sim {
     size_t arena_bytes, arena_used;
     /* sets */
     sph_set *set;     /* SPH_MAX_SETS of them, in the arena like everything large */
+    sph_material *material;                  /* as many, in scenes with solids */
+    struct sph_solid_scratch *solid_scratch; /* of each thread, in scenes with solids */
     sph_group *group; /* SPH_MAX_GROUPS */
     uint32_t sets, groups;
     uint64_t setup_hash;
@@ -266,6 +273,7 @@ SPH_INLINE bool sph_smooths_strain(const sph_config *c) { return SPH_HAS_HAT && 
 /* whether a set is made of what moves by forces, not wall */
 #define SPH_BODIES (1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_SOLID)
 SPH_INLINE bool sph_is_solid(const sph_set *s) { return SPH_WITH_SOLID && s->role == SPH_ROLE_SOLID; }
+SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set *s) { return sim->material + (s - sim->set); }
 SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */
@@ -326,7 +334,9 @@ SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)
 /* the axes along which a set moves as it is told, as bits */
 SPH_INLINE uint32_t sph_held(const sph_sim *sim, const sph_set *s)
 {
-    return SPH_HAS_HELD && s->held && !sim->next.group[s->group].removed ? s->held : 0;
+    if (!SPH_HAS_HELD || !sph_is_solid(s) || s->group == SPH_MAX_GROUPS || sim->next.group[s->group].removed)
+        return 0;
+    return sph_material_of(sim, s)->held;
 }
 SPH_INLINE double sph_wall_velocity(const sph_sim *sim, const sph_set *s, uint32_t axis)
 {

@@ -93,9 +93,9 @@ static sph_set *new_wall_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
     s->role = layered(w) ? SPH_ROLE_GHOST : SPH_ROLE_FORCE_WALL;
     s->kind = w->kind;
     s->group = sim->groups;
-    s->compressible = w->compressible;
+    s->compressible = w->compressible && SPH_IS(w->kind, WALL_GHOST); /* others have no rate to follow */
     s->no_slip = w->no_slip;
-    s->eos = sim->cfg.eos;
+    s->eos = (uint8_t)sim->cfg.eos;
     s->rho0 = sim->cfg.rho0;
     s->c0 = sim->cfg.sound_speed;
     s->mass = s->rho0 * sph_setup_cell_volume(sim);

@@ -359,6 +359,10 @@ static void lay_out(const sph_config *c, const sph_grid *g, sph_sim *s, layout *
     SPH_PLACE(set, "sets", c->max_sets, sizeof(sph_set));
     SPH_PLACE(group, "wall groups", SPH_MAX_GROUPS, sizeof(sph_group));
     SPH_PLACE(thread, "thread scratch", c->max_threads, sizeof(struct sph_thread));
+    if (sph_has_solids(c)) {
+        SPH_PLACE(material, "materials", c->max_sets, sizeof(sph_material));
+        SPH_PLACE(solid_scratch, "thread scratch of solids", c->max_threads, sizeof(struct sph_solid_scratch));
+    }
     for (uint32_t b = 0; b < buffers; b++)
         lay_out_state(c, s, b, l);
     SPH_PLACE(cell, "cell starts", (size_t)g->cells + 2, sizeof(uint32_t));

@@ -23,7 +23,7 @@ static double fastest_sound(const sph_sim *sim)
         const sph_set *set = &sim->set[s];
         double own = set->c0;
         if (sph_is_solid(set)) /* waves along the way of their motion (Gray 2001 eq 5.52) */
-            own = __builtin_sqrt(own * own + 4 * set->shear / (3 * set->rho0));
+            own = __builtin_sqrt(own * own + 4 * sph_material_of(sim, set)->shear / (3 * set->rho0));
         c = own > c ? own : c;
     }
     return SPH_IS(sim->cfg.eos, TAIT_GRAY) ? c * 2.6457513110645905905 : c; /* sqrt 7 */

@@ -42,17 +42,14 @@ void sph_setup_finish_set(sph_sim *sim, sph_set *s)
     double scale = s->c0 * s->c0 * s->rho0;
     if (SPH_IS(s->eos, TAIT))
         scale /= 7;
-    s->shear_r = (sph_real)s->shear;
     s->mass_r = (sph_real)s->mass;
     s->rho0_r = (sph_real)s->rho0;
     s->inv_rho0_r = (sph_real)(1 / s->rho0);
     s->b_r = (sph_real)scale;
     uint64_t h = sim->setup_hash;
     h = sph_mix(h, (uint64_t)s->role | (uint64_t)s->kind << 8 | (uint64_t)s->group << 16 |
-                       (uint64_t)s->compressible << 32 | (uint64_t)s->no_slip << 33 | (uint64_t)s->corner << 34);
-    h = sph_mix(h, (uint64_t)s->eos | (uint64_t)s->body << 8 | (uint64_t)s->held << 16);
-    const double v[] = {s->mass, s->rho0, s->c0, s->strength, s->thick, s->half[0], s->half[1],
-                        s->shear, s->yield, s->hardening, s->crack_rate};
+                       (uint64_t)s->eos << 24 | (uint64_t)s->compressible << 32 | (uint64_t)s->no_slip << 33 | (uint64_t)s->corner << 34);
+    const double v[] = {s->mass, s->rho0, s->c0, s->strength, s->thick, s->half[0], s->half[1]};
     for (size_t i = 0; i < sizeof v / sizeof *v; i++)
         h = sph_mix_double(h, v[i]);
     for (int k = 0; k < SPH_DIM; k++)
@@ -88,7 +85,7 @@ static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint3
     sph_set *s = &sim->set[sim->sets];
     memset(s, 0, sizeof *s);
     s->group = SPH_MAX_GROUPS;
-    s->eos = f->own_eos ? f->eos : sim->cfg.eos;
+    s->eos = (uint8_t)(f->own_eos ? f->eos : sim->cfg.eos);
     s->rho0 = f->rho0 > 0 ? f->rho0 : sim->cfg.rho0;
     s->c0 = f->sound_speed > 0 ? f->sound_speed : sim->cfg.sound_speed;
     s->mass = f->mass > 0 ? f->mass : s->rho0 * sph_setup_cell_volume(sim);
@@ -148,17 +145,14 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32
     if (st || (st = check_solid(sim, m)) != SPH_OK)
         return st;
     s->role = SPH_ROLE_SOLID;
-    s->shear = m->shear;
-    s->yield = m->yield;
-    s->hardening = m->hardening;
-    s->body = m->body;
+    sph_material *rock = &sim->material[sim->sets];
+    *rock = (sph_material){m->shear, m->yield, m->hardening, 0, (sph_real)m->shear, m->body, m->held};
     const double volume = s->mass / s->rho0;
     double radius = m->flaw_radius; /* of the disc or ball with the particle's volume */
     if (!(radius > 0))
         radius = SPH_DIM == 3 ? sph_pow(volume * 3 / (4 * 3.14159265358979323846), 1.0 / 3) : __builtin_sqrt(volume / 3.14159265358979323846);
-    s->crack_rate = (m->crack_speed > 0 ? m->crack_speed : 0.4 * s->c0) / radius;
+    rock->crack_rate = (m->crack_speed > 0 ? m->crack_speed : 0.4 * s->c0) / radius;
     if (m->held) {
-        s->held = m->held;
         s->group = sim->groups;
         sim->group[sim->groups] = (sph_group){m->motion, m->motion_ctx};
         memset(&sim->now.group[sim->groups], 0, sizeof sim->now.group[0]);
@@ -168,6 +162,10 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32
         sim->groups++;
     } else if (group)
         *group = SPH_MAX_GROUPS;
+    sim->setup_hash = sph_mix(sim->setup_hash, (uint64_t)m->body | (uint64_t)m->held << 8);
+    const double v[] = {rock->shear, rock->yield, rock->hardening, rock->crack_rate};
+    for (size_t i = 0; i < sizeof v / sizeof *v; i++)
+        sim->setup_hash = sph_mix_double(sim->setup_hash, v[i]);
     sph_setup_finish_set(sim, s);
     *set = sim->sets++;
     return SPH_OK;

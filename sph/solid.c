@@ -99,12 +99,13 @@ sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, co
             l[k][c] = -sum;
         }
     if (solid) {
+        const sph_real mu = sph_material_of(sim, set)->shear_r;
         tensor_of(b, i, s);
 #if SPH_HAS_RATES_FIRST
         if (middle)
-            to_the_middle((sph_real)sim->dt, set->shear_r, l, s);
+            to_the_middle((sph_real)sim->dt, mu, l, s);
 #endif
-        jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, set->shear_r, rate);
+        jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, mu, rate);
         for (uint32_t k = 0; k < SPH_NS; k++)
             b->dstress[k][i] = rate[kept_at[k][0]][kept_at[k][1]];
     }
@@ -133,10 +134,10 @@ static sph_real square(const sph_buffer *b, uint32_t i, bool plane)
 }
 
 /* returns the stresses of a run of one set to the yield surface */
-static void yield_run(const sph_sim *sim, const sph_set *set, const sph_buffer *b, uint32_t first, uint32_t last)
+static void yield_run(const sph_sim *sim, const sph_material *rock, const sph_buffer *b, uint32_t first, uint32_t last)
 {
     const bool printed = sim->cfg.yield == SPH_VON_MISES_GRAY;
-    const sph_real y0 = (sph_real)set->yield, hard = (sph_real)set->hardening, mu3 = 3 * set->shear_r;
+    const sph_real y0 = (sph_real)rock->yield, hard = (sph_real)rock->hardening, mu3 = 3 * rock->shear_r;
     for (uint32_t i = first; i < last; i++) {
         const sph_real y = y0 + hard * b->plastic[0][i], s3 = (sph_real)1.5 * square(b, i, printed); /* 3 J2 */
         if (!(s3 > y * y))
@@ -206,8 +207,8 @@ void sph_advance_stress(sph_sim *sim, uint32_t first, uint32_t last, uint32_t ho
 #if SPH_HAS_YIELD
     for (uint32_t i = first, e; i < last && b->plastic[0]; i = e) {
         e = sph_run_end(b->set[0], i, last);
-        if (b->set[0][i] != SPH_DEAD && sim->set[b->set[0][i]].yield > 0)
-            yield_run(sim, &sim->set[b->set[0][i]], b, i, e);
+        if (b->set[0][i] != SPH_DEAD && sim->material[b->set[0][i]].yield > 0)
+            yield_run(sim, &sim->material[b->set[0][i]], b, i, e);
     }
 #endif
 }
@@ -263,14 +264,15 @@ enum { SUM_FAR = SPH_NL };
 SPH_INLINE void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, uint32_t kernel, bool weak, bool total, bool wall)
 {
     const sph_tile *c = wall ? &t->ghost : &t->fluid;
+    const sph_solid_scratch *solid = sph_solid_scratch_of(sim, t);
     const vreal inv_h = v_set(sim->fac.inv_h);
     vreal s[SPH_NL + 1][SPH_NV], x[SPH_DIM], k[SPH_DIM];
-    const vreal body = v_set(total ? t->solid_home.body[h] : 0);
+    const vreal body = v_set(total ? solid->home.body[h] : 0);
     const int used = total ? SPH_NL + 1 : SPH_NL;
     SPH_UNROLL
     for (int a = 0; a < SPH_DIM; a++) {
         x[a] = v_set(t->home.x[a][h]);
-        k[a] = v_set(total ? t->solid_home.k[a][h] : 0);
+        k[a] = v_set(total ? solid->home.k[a][h] : 0);
     }
     for (int a = 0; a < used; a++)
         SPH_UNROLL
@@ -283,7 +285,7 @@ SPH_INLINE void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, u
             vreal dx[SPH_DIM], kx[SPH_DIM], k2 = v_set(0), x2 = v_set(0);
             vint same = v_set_int(0), apart = same;
             if (total && !wall) {
-                const vreal other = v_load(t->solid.body + j), half = v_set((sph_real)0.5);
+                const vreal other = v_load(solid->tile.body + j), half = v_set((sph_real)0.5);
                 same = v_less(half, body) & v_equal(body, other);
                 apart = v_less(half, body) & v_less(half, other) & ~same; /* two bodies know nothing of each other's strain */
             }
@@ -291,7 +293,7 @@ SPH_INLINE void correction_home(const sph_sim *sim, sph_thread *t, uint32_t h, u
             for (int a = 0; a < SPH_DIM; a++) {
                 kx[a] = dx[a] = x[a] - v_load(c->x[a] + j);
                 if (total && !wall)
-                    kx[a] = v_select(same, k[a] - v_load(t->solid.k[a] + j), v_where(~apart, dx[a]));
+                    kx[a] = v_select(same, k[a] - v_load(solid->tile.k[a] + j), v_where(~apart, dx[a]));
                 k2 = k2 + kx[a] * kx[a];
                 x2 = x2 + dx[a] * dx[a];
             }

@@ -209,7 +209,7 @@ static bool advance_block(const sph_sim *sim, const advance *a, uint32_t i, uint
         else if (sph_is_body(&sim->set[set])) {
             fine &= move_fluid(sim, a, i + j, e - j, o, j, all);
 #if SPH_HAS_HELD
-            if (sim->set[set].held)
+            if (sph_held(sim, &sim->set[set]))
                 fine &= hold(sim, &sim->set[set], i + j, e - j, o, j);
 #endif
         }

@@ -164,7 +164,7 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
 /* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:
    velocity Verlet; density drifts with the half-step velocity, so a step takes two sweeps (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1,
-   rates then forces (two sweeps), velocities half a step behind. RUNGE_KUTTA: Wickramarachchi 3.85-3.87;
+   rates then forces (two sweeps), velocities half a step ahead. RUNGE_KUTTA: Wickramarachchi 3.85-3.87;
    RUNGE_KUTTA_MOMENTUM: his 3.91-3.92 (algebraically the same midpoint rule, rounded differently). */
 enum {
     SPH_PREDICTOR_CORRECTOR,
@@ -321,13 +321,13 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u))
-#define SPH_FIXED_BYTES (SPH_WITH_SOLID ? 36864u : 28672u) /* simulation header, sets, groups, alignment of at most 96 arrays */
+#define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
 #define SPH_SCRATCH_BYTES /* a thread */                                                                    \
-    (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) +                                            \
-      (SPH_WITH_SOLID ? SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u : 0u)) *                      \
-     (SPH_DOUBLE ? 2u : 1u))
+    (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) + (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM * 512u : 0u)) * (SPH_DOUBLE ? 2u : 1u))
+#define SPH_SOLID_SCRATCH_BYTES ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u)) /* with solids */
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
+     (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) * (((use)&SPH_USE_BOOKS) ? 64u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */

@@ -246,7 +246,7 @@ static __attribute__((noinline)) void load_solid(const filling *f, const image *
     sph_real *const body = u0 + (size_t)SPH_DIM * row;
     for (uint32_t j = 0; j < n && SPH_HAS_TOTAL && asked & SPH_COL_REFERENCE; j++) {
         const bool broken = f->b->damage[0] && !(f->b->damage[0][s + j] < 1);
-        body[j] = set->role == SPH_ROLE_SOLID && !broken ? (sph_real)(set->body + 1) : 0;
+        body[j] = set->role == SPH_ROLE_SOLID && !broken ? (sph_real)(sph_material_of(f->sim, set)->body + 1) : 0;
     }
 }
 #endif
@@ -306,11 +306,12 @@ static void close_tile(const filling *f, sph_tile *t, bool ghost)
         t->rho[j] = t->iv[j] = 1;
 #if SPH_WITH_SOLID
         if (!ghost && f->w->columns) { /* whatever they hold must stay finite when multiplied by no mass */
-            sph_real *const c = f->t->solid.t[0] + j;
-            for (uint32_t k = 0; k < sizeof(sph_solid_tile) / sizeof f->t->solid.t[0]; k++)
+            sph_solid_tile *const solid = &sph_solid_scratch_of(f->sim, f->t)->tile;
+            sph_real *const c = solid->t[0] + j;
+            for (uint32_t k = 0; k < sizeof *solid / sizeof solid->t[0]; k++)
                 c[k * (SPH_TILE + SPH_STRIDE)] = 0;
             for (uint32_t k = 0; k < SPH_DIM; k++)
-                f->t->solid.k[k][j] = far;
+                solid->k[k][j] = far;
         }
 #endif
         if (ghost)
@@ -358,7 +359,7 @@ static void add_run(filling *f, const image *im, const sph_set *set, uint32_t s,
             load(f, im, set, s, take, &t->fluid);
 #if SPH_WITH_SOLID
         if (f->w->columns && sph_is_body(set))
-            load_solid(f, im, set, s, take, t->solid.t[0] + *n, SPH_TILE + SPH_STRIDE);
+            load_solid(f, im, set, s, take, sph_solid_scratch_of(f->sim, t)->tile.t[0] + *n, SPH_TILE + SPH_STRIDE);
 #endif
 #if SPH_HAS_LAYERED_WALLS
         if (set->role == SPH_ROLE_GHOST) {
@@ -505,7 +506,8 @@ static void load_homes(filling *f, uint32_t *s, uint32_t e)
         load(f, &no_image, &f->sim->set[set], *s, n, &t->home);
 #if SPH_WITH_SOLID
         if (f->w->columns)
-            load_solid(f, &no_image, &f->sim->set[set], *s, n, t->solid_home.t[0] + f->homes, SPH_HOMES + SPH_LANES);
+            load_solid(f, &no_image, &f->sim->set[set], *s, n, sph_solid_scratch_of(f->sim, t)->home.t[0] + f->homes,
+                       SPH_HOMES + SPH_LANES);
 #endif
         for (uint32_t j = 0; j < n; j++) {
             t->home_at[f->homes + j] = *s + j;

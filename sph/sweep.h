@@ -73,10 +73,6 @@ typedef struct sph_thread {
         struct { /* sweeps */
             sph_tile home, fluid, ghost;
             sph_ghost_tile more;
-#if SPH_WITH_SOLID
-            sph_solid_homes solid_home;
-            sph_solid_tile solid;
-#endif
             uint32_t forces; /* boundary-force particles: set and position only */
             sph_real fx[SPH_DIM][SPH_TILE + SPH_STRIDE];
             uint8_t fset[SPH_TILE + SPH_STRIDE];
@@ -93,6 +89,13 @@ typedef struct sph_thread {
     sph_fail fail;
     uint32_t crossed, put_back, reflected, left, removed, widest;
 } sph_thread;
+
+/* the same of scenes with solids */
+typedef struct sph_solid_scratch {
+    sph_solid_homes home;
+    sph_solid_tile tile;
+} sph_solid_scratch;
+SPH_INLINE sph_solid_scratch *sph_solid_scratch_of(const sph_sim *sim, const sph_thread *t) { return sim->solid_scratch + (t - sim->thread); }
 
 typedef struct sph_sweep {
     bool (*home)(const sph_sim *sim, const sph_set *set);
@@ -112,5 +115,6 @@ uint32_t sph_sweep_chunks(const sph_sim *sim);
 uint32_t sph_local_chunks(const sph_sim *sim);
 
 _Static_assert(sizeof(sph_thread) <= SPH_SCRATCH_BYTES, "SPH_SCRATCH_BYTES in sph.h is too small");
+_Static_assert(sizeof(sph_solid_scratch) <= SPH_SOLID_SCRATCH_BYTES, "SPH_SOLID_SCRATCH_BYTES in sph.h is too small");
 
 #endif

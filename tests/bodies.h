@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* bodies.h: what the tests of solids share: bodies of jittered or regular lattices, tensors of 3 by 3 in double, motions with a
-   uniform velocity gradient, and a look at the arrays that sph.h does not show. */
+/* bodies.h: what the tests of solids share: bodies of jittered or regular lattices, tensors of 3 by 3 in double,
+   motions with a uniform velocity gradient, and a look at the arrays that sph.h does not show. */
 #ifndef SPH_TEST_BODIES_H
 #define SPH_TEST_BODIES_H
 

@@ -113,9 +113,10 @@ static void put_records(const synth *s)
     const synth_field scene[] = {{"max_particles", 1}, {"lo", d}, {"hi", d}, {"face", 2 * d}, {"quantum", 1},
                                  {"spacing", 1},       {"smoothing", 1}, {"eos", 1}, {"pressure_floor", 1}};
     const synth_field set[] = {{"role", 1},        {"group", 1},          {"mass", 1}, {"rho0", 1},
-                               {"sound_speed", 1}, {"pressure_scale", 1}, {"shear", 1}, {"eos", 1}, {"body", 1}};
+                               {"sound_speed", 1}, {"pressure_scale", 1}, {"eos", 1}};
+    const synth_field material[] = {{"shear", 1}, {"body", 1}};
     const synth_field group[] = {{"velocity", d}}, state[] = {{"time", 1}, {"step", 1}, {"particles", 1}};
-    double v[32], sets[SYNTH_SETS][9];
+    double v[32], sets[SYNTH_SETS][7], materials[SYNTH_SETS][2];
     uint32_t n = 0;
     v[n++] = SYNTH_MOST;
     for (uint32_t k = 0; k < d; k++)
@@ -133,10 +134,13 @@ static void put_records(const synth *s)
     for (int i = 0; i < SYNTH_SETS; i++) {
         const double c2 = s->set[i].c0 * s->set[i].c0;
         const double row[] = {s->set[i].role, 0, s->set[i].mass, s->set[i].rho0, s->set[i].c0, s->set[i].rho0 * c2,
-                              0.3 * s->set[i].rho0 * c2, SPH_LINEAR, s->set[i].body};
+                              SPH_LINEAR};
         memcpy(sets[i], row, sizeof row);
+        materials[i][0] = 0.3 * s->set[i].rho0 * c2;
+        materials[i][1] = s->set[i].body;
     }
-    put_record("sets", set, 9, SYNTH_SETS, sets[0]);
+    put_record("sets", set, 7, SYNTH_SETS, sets[0]);
+    put_record("materials", material, 2, SYNTH_SETS, materials[0]);
     v[0] = v[1] = v[2] = 0;
     put_record("groups", group, 1, 1, v);
     v[0] = s->time;

@@ -413,7 +413,7 @@ static void the_arena_report_adds_up(void **state)
 /* what a particle costs: all arrays, by the names of the report, over the room for particles */
 static void add_arrays(void *ctx, const char *name, size_t bytes)
 {
-    static const char *const fixed_size[] = {"header", "sets", "wall groups", "thread scratch", "cell starts", "slab starts", "flaws",
+    static const char *const fixed_size[] = {"header", "sets", "wall groups", "thread scratch", "thread scratch of solids", "materials", "cell starts", "slab starts", "flaws",
                                              "partial sums for the books"};
     for (size_t k = 0; k < sizeof fixed_size / sizeof *fixed_size; k++)
         if (strcmp(name, fixed_size[k]) == 0)
@@ -527,9 +527,9 @@ static void particles_and_lattices_check_their_arguments(void **state)
         x[k] = bad[k] = 0.3, lo[k] = 0, hi[k] = 0.4;
     arg_refused(sim, sph_add_fluid(sim, NULL, NULL), "set");
     uint32_t set;
-    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.mass = -1}, &set), "mass");
-    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.rho0 = NAN}, &set), "rho0");
-    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = INFINITY}, &set), "sound_speed");
+    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.mass = -1}, &set), "fluid.mass");
+    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.rho0 = NAN}, &set), "fluid.rho0");
+    arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = INFINITY}, &set), "fluid.sound_speed");
     arg_refused(sim, sph_add_fluid(sim, &(sph_fluid){.own_eos = true, .eos = SPH_EOSES}, &set), "eos");
     arg_refused(sim, sph_add_particle(sim, 7, x, NULL, 0, NULL), "set");
     arg_refused(sim, sph_add_particle(sim, 0, NULL, NULL, 0, NULL), "x");

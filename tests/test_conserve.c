@@ -143,7 +143,7 @@ static sph_sim *drop(uint32_t integrator, double dt, uint32_t viscosity)
     return sim;
 }
 
-/* relative drift of the energy over a tenth of a second. Leap-frog's velocities are half a step behind its positions, so
+/* relative drift of the energy over a tenth of a second. Leap-frog's velocities are half a step ahead of its positions, so
    the energy read after a step is off by up to dt/2 |dK/dt|: *skew, 0 for the others */
 static double drift(uint32_t integrator, double dt, uint32_t viscosity, double *lost, double *skew)
 {

@@ -34,6 +34,7 @@ static bool play(void *ctx, void *p, size_t n)
 }
 
 static struct {
+    bool rock; /* a solid that yields and breaks, a part of it held, instead of water and a wall */
     sph_sim *sim;
     unsigned char *arena, *image;
     size_t bytes;
@@ -49,6 +50,25 @@ static void sway(void *ctx, double t, double *x, double *v)
     v[0] = 0.1;
 }
 
+static void add_rock(double *lo, double *hi)
+{
+    sph_solid m = {.shear = 1e5, .yield = 20};
+    uint32_t set, other;
+    const double away[SPH_DIM] = {1};
+    must(bed.sim, sph_add_solid(bed.sim, &m, &set, NULL));
+    must(bed.sim, sph_add_box(bed.sim, set, lo, hi, away));
+    m.held = 1;
+    m.motion = sway;
+    must(bed.sim, sph_add_solid(bed.sim, &m, &other, NULL));
+    hi[0] = 0;
+    lo[0] = -DX;
+    must(bed.sim, sph_add_box(bed.sim, other, lo, hi, NULL));
+#if SPH_DIM > 1
+    const sph_flaws flaws = {1e25, 5, 3};
+    must(bed.sim, sph_add_flaws(bed.sim, set, &flaws));
+#endif
+}
+
 static void make_bed(void)
 {
     sph_config c = open_config(SPH_DIM == 3 ? 0.5 : 1, DX);
@@ -59,6 +79,14 @@ static void make_bed(void)
     c.books = true;
     c.xsph = 0.5;
     c.gravity[0] = -9.81;
+    if (bed.rock) {
+        c.xsph = 0;
+        c.solid = SPH_TOTAL;
+        c.yield = SPH_VON_MISES;
+        c.damage = SPH_DIM > 1 ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
+        c.max_flaws = 400;
+        c.max_stretch = 2;
+    }
     bed.sim = new_sim(&c);
     for (int k = 0; k < SPH_DIM; k++)
         hi[k] = SPH_DIM == 3 ? 0.5 : 0.75;
@@ -66,9 +94,13 @@ static void make_bed(void)
     w.layers = 1;
     w.compressible = true;
     w.motion = sway;
-    must(bed.sim, sph_add_fluid(bed.sim, NULL, &set));
-    must(bed.sim, sph_add_box(bed.sim, set, lo, hi, NULL));
-    must(bed.sim, sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0), true, NULL));
+    if (bed.rock)
+        add_rock(lo, hi);
+    else {
+        must(bed.sim, sph_add_fluid(bed.sim, NULL, &set));
+        must(bed.sim, sph_add_box(bed.sim, set, lo, hi, NULL));
+        must(bed.sim, sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0), true, NULL));
+    }
     for (int k = 0; k < 3; k++)
         must(bed.sim, sph_step(bed.sim));
     bed.dump = (tape){true_bytes, 0, 0};
@@ -203,17 +235,20 @@ static void put_real(unsigned char *p, double x)
 
 static void impossible_values_are_refused_though_checksums_are_right(void **state)
 {
-    static const char *const reals[] = {"vel", "rho", "acc", "drho", "xsph"};
+    static const char *const water[] = {"vel", "rho", "acc", "drho", "xsph"};
+    static const char *const solid[] = {"vel", "stress", "dstress", "plastic", "damage"};
+    const char *const *const reals = bed.rock ? solid : water;
+    const size_t arrays = bed.rock && SPH_DIM == 1 ? 4 : 5;
     (void)state;
     make_bed();
     memcpy(changed_bytes, true_bytes, bed.dump.n);
     mend(bed.dump.n); /* nothing is changed yet: mending must give the same bytes */
     assert_memory_equal(changed_bytes, true_bytes, bed.dump.n);
-    for (size_t k = 0; k < sizeof reals / sizeof *reals; k++)
-        for (int bad = 0; bad < 3; bad++) {
+    for (size_t k = 0; k < arrays; k++)
+        for (int bad = 0; bad < (bed.rock && k >= 3 ? 5 : 3); bad++) {
             const size_t at = section(reals[k]) + 64;
             memcpy(changed_bytes, true_bytes, bed.dump.n);
-            put_real(changed_bytes + at, bad == 0 ? NAN : bad == 1 ? INFINITY : -INFINITY);
+            put_real(changed_bytes + at, bad == 0 ? NAN : bad == 1 ? INFINITY : bad == 2 ? -INFINITY : k == 4 && bad == 3 ? 1.01 : -0.01);
             mend(bed.dump.n);
             assert_int_equal(offer(changed_bytes, bed.dump.n, reals[k], at, true), SPH_DUMP_CORRUPT);
         }
@@ -229,6 +264,13 @@ static void impossible_values_are_refused_though_checksums_are_right(void **stat
         mend(bed.dump.n);
         assert_int_equal(offer(changed_bytes, bed.dump.n, odd[k].name, at, true), SPH_DUMP_CORRUPT);
     }
+    for (int high = 0; high < 2 && bed.rock; high++) { /* further from its beginning than half the domain */
+        const size_t at = section("shift") + 64 + sizeof(sph_pos) - 1;
+        memcpy(changed_bytes, true_bytes, bed.dump.n);
+        changed_bytes[at] = high ? 0x7f : 0x80;
+        mend(bed.dump.n);
+        assert_int_equal(offer(changed_bytes, bed.dump.n, "shift", at, true), SPH_DUMP_CORRUPT);
+    }
     memcpy(changed_bytes, true_bytes, bed.dump.n); /* two particles of one id */
     memcpy(changed_bytes + section("id") + 64, changed_bytes + section("id") + 68, 4);
     mend(bed.dump.n);
@@ -236,10 +278,87 @@ static void impossible_values_are_refused_though_checksums_are_right(void **stat
     unmake_bed();
 }
 
+/* ---- the same of a solid ---- */
+
+static void the_true_dump_of_a_solid_is_taken(void **state)
+{
+    bed.rock = true;
+    the_true_dump_is_taken(state);
+}
+
+/* its stresses, yielding and damage are not all nothing, or the tests would show little; and a reduced dump has them */
+static void the_solid_has_all_that_a_dump_holds(void **state)
+{
+    double stress = 0, plastic = 0, damage = 0;
+    (void)state;
+    make_bed();
+    for (uint32_t i = 0; i < sph_count(bed.sim); i++) {
+        sph_particle p;
+        must(bed.sim, sph_get(bed.sim, i, &p));
+        stress = fmax(stress, fabs(p.stress[0]));
+        plastic = fmax(plastic, p.plastic);
+        damage = fmax(damage, p.damage);
+    }
+    if (!(stress > 0 && plastic > 0 && (damage > 0 || SPH_DIM == 1)))
+        fail_msg("stress %g, plastic strain %g, damage %g", stress, plastic, damage);
+    tape t = {changed_bytes, 0, 0};
+    const char *const want[] = {"stress", "damage"};
+    must(bed.sim, sph_dump(bed.sim, SPH_DUMP_PICTURE, record, &t));
+    for (int k = 0; k < (SPH_DIM == 1 ? 1 : 2); k++) {
+        bool found = false;
+        for (size_t at = 32; at < t.n; at += 64 + crc_get(changed_bytes + at + 48) + 4)
+            found |= strcmp((const char *)changed_bytes + at, want[k]) == 0;
+        if (!found)
+            fail_msg("a picture without %s", want[k]);
+    }
+    unmake_bed();
+}
+
+/* flaws are of the set-up: a simulation with others does not take the dump */
+static void a_dump_of_other_flaws_or_materials_is_refused(void **state)
+{
+    (void)state;
+    make_bed();
+    for (int other = 0; other < (SPH_DIM == 1 ? 1 : 2); other++) {
+        sph_config c = bed.sim->cfg;
+        sph_solid m = {.shear = other ? 1e5 : 1.1e5, .yield = 20};
+        double lo[SPH_DIM] = {0}, hi[SPH_DIM];
+        uint32_t set, held;
+        for (int k = 0; k < SPH_DIM; k++)
+            hi[k] = SPH_DIM == 3 ? 0.5 : 0.75;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_solid(sim, &m, &set, NULL));
+        must(sim, sph_add_box(sim, set, lo, hi, NULL));
+        m.shear = 1e5;
+        m.held = 1;
+        m.motion = sway;
+        must(sim, sph_add_solid(sim, &m, &held, NULL));
+        hi[0] = 0;
+        lo[0] = -DX;
+        must(sim, sph_add_box(sim, held, lo, hi, NULL));
+#if SPH_DIM > 1
+        const sph_flaws flaws = {1e25, 5, other ? 4 : 3};
+        must(sim, sph_add_flaws(sim, set, &flaws));
+#endif
+        const uint64_t before = sph_hash(sim);
+        tape t = bed.dump;
+        t.at = 0;
+        assert_int_equal(sph_restore(sim, play, &t), SPH_DUMP_MISMATCH);
+        assert_true(sph_hash(sim) == before);
+    }
+    unmake_bed();
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
         subject(the_true_dump_is_taken),
+        subject(every_truncation_is_refused),
+        subject(every_changed_byte_is_refused),
+        subject(impossible_values_are_refused_though_checksums_are_right),
+        subject(the_true_dump_of_a_solid_is_taken), /* and from here on of a solid */
+        subject(the_solid_has_all_that_a_dump_holds),
+        subject(a_dump_of_other_flaws_or_materials_is_refused),
         subject(every_truncation_is_refused),
         subject(every_changed_byte_is_refused),
         subject(impossible_values_are_refused_though_checksums_are_right),

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_solid.c: what a solid's stress does where the answer is known: velocity gradients of linear fields, bodies driven with a
-   uniform gradient against closed solutions of the Jaumann rate, with the order in dt, and the return to the yield surface. */
+/* test_solid.c: what a solid's stress does where the answer is known: velocity gradients of linear fields, bodies
+   driven with a uniform gradient against closed solutions of the Jaumann rate, with the order in dt, and the return to
+   the yield surface. */
 #include "bodies.h"
 
 #define DX 0.1
@@ -53,8 +54,8 @@ static gradient gradient_errors(uint32_t form, uint32_t scheme, uint32_t kernel,
     return g;
 }
 
-/* velocities are rounded to EPS of themselves, up to CLOUD/2 times what two neighbours differ by, and at corners the inverse of
-   M multiplies errors by up to about ten */
+/* velocities are rounded to EPS of themselves, up to CLOUD/2 times what two neighbours differ by, and at corners the
+   inverse of M multiplies errors by up to about ten */
 static void linear_fields_have_exact_gradients(void **state)
 {
     static const uint32_t schemes[] = {SPH_STANDARD, SPH_WEAK};
@@ -69,8 +70,8 @@ static void linear_fields_have_exact_gradients(void **state)
             }
 }
 
-/* The plain form on a lattice, away from its faces: c L with c = -dx^DIM sum x^2 g, which is not quite 1; at faces it is wrong by
-   most of it. */
+/* The plain form on a lattice, away from its faces: c L with c = -dx^DIM sum x^2 g, which is not quite 1; at faces it
+   is wrong by most of it. */
 static double lattice_sum(uint32_t kernel, double h)
 {
     double c = 0;
@@ -92,7 +93,8 @@ static void plain_gradients_are_right_inside_a_lattice(void **state)
     for (int s = 0; s < 2; s++) {
         const gradient g = gradient_errors(SPH_UPDATED, schemes[s], SPH_CUBIC, 0, false, c);
         const gradient whole = gradient_errors(SPH_UPDATED, schemes[s], SPH_CUBIC, 0, false, 1);
-        print_message("updated, scheme %u: inside %.4f L to %.2g; with faces off by %.2g\n", schemes[s], c, g.inner, g.worst);
+        print_message("updated, scheme %u: inside %.4f L to %.2g; with faces off by %.2g\n", schemes[s], c, g.inner,
+                      g.worst);
         assert_true(g.inner < 16 * CLOUD * EPS && fabs(c - 1) < 0.03 && whole.inner < 1.5 * fabs(c - 1));
         assert_true(whole.worst > 0.2);
     }
@@ -309,8 +311,8 @@ static void the_printed_return_lands_inside(void **state)
     assert_true(on > 3);
 }
 
-/* Stretched past yield and back by a uniform gradient that changes sign: elastic up to Y, then along Y + H ep, back down with
-   slope 2 mu; plastic work is the integral of sqrt(3 J2) d ep, and ep what of the strain is not elastic. */
+/* Stretched past yield and back by a uniform gradient that changes sign: elastic up to Y, then along Y + H ep, back
+   down with slope 2 mu; plastic work is the integral of sqrt(3 J2) d ep, and ep what of the strain is not elastic. */
 static void loading_and_unloading(void **state)
 {
     const double y = 1e-2 * SOFT_MU, hard = 0.5 * SOFT_MU;

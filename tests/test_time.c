@@ -174,7 +174,7 @@ static void a_falling_body_falls_exactly(void **state)
         const double t = sph_time(sim);
         close_to(t, 0.05, 1e-15);
         /* a constant acceleration is exact at second order; each step rounds position (to a quantum) and velocity.
-           Leap-frog's velocity is half a step behind its position. */
+           Leap-frog's velocity is half a step ahead of its position. */
         close_to(by_id(sim, 0).x[0], t - 0.5 * 9.81 * t * t, 50 * (8 * EPS * 0.05 + 4e-9 * (SPH_DOUBLE ? 1e-6 : 1)));
         close_to(by_id(sim, 0).v[0], 1 - 9.81 * (i == SPH_LEAP_FROG ? t + 0.5e-3 : t), 50 * 2 * EPS);
         assert_int_equal(free_sims(NULL), 0);

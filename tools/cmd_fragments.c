@@ -19,7 +19,7 @@ static const char help[] =
     "                 The number of pieces at other thresholds is printed too; where it varies, look at a picture\n"
     "  link=1.5       in spacings; 1.5 links diagonal neighbours of a square lattice, which still pull at each other, and\n"
     "                 not across a row of broken particles. Material stretched by more than 6 % without damage needs more\n"
-    "  across=no      particles of different bodies (sets.body of the dump) are not linked: in contact they are two\n"
+    "  across=no      particles of different bodies (materials.body of the dump) are not linked: in contact they are two\n"
     "  least=1        pieces of fewer particles count as broken\n"
     "  by=length      what the histogram is of: the longest edge of a piece's box, or the diameter of the disc or ball\n"
     "                 of its volume (mass over rho0)\n"
@@ -120,7 +120,7 @@ static bool whole(const flood *f, uint32_t j) { return f->b->d[j] < f->threshold
 static double body_of(const flood *f, uint32_t j)
 {
     const uint32_t set = dump_set(f->d, f->b->at[j]);
-    return f->has_body ? dump_number(f->d, "sets", "body", set, 0) : set;
+    return f->has_body ? dump_number(f->d, "materials", "body", set, 0) : set;
 }
 
 static void reach(void *ctx, uint32_t j, const double step[3], double r)
@@ -178,7 +178,7 @@ static bool find_pieces(const dump_file *d, const body *b, const options *o, dou
 {
     double period[3] = {0, 0, 0};
     dump_member m;
-    flood f = {d, b, o, threshold, NULL, dump_find_member(dump_find(d, "sets"), "body", &m), NULL, 0, 0, NULL};
+    flood f = {d, b, o, threshold, NULL, dump_find_member(dump_find(d, "materials"), "body", &m), NULL, 0, 0, NULL};
     near g;
     for (uint32_t k = 0; k < d->dim; k++)
         if (dump_periodic(d, k))

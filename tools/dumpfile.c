@@ -305,7 +305,7 @@ bool dump_get_member(const dump_section *record, uint32_t f, dump_member *m)
 }
 bool dump_find_member(const dump_section *record, const char *name, dump_member *m)
 {
-    for (uint32_t f = 0; dump_get_member(record, f, m); f++)
+    for (uint32_t f = 0; record && dump_get_member(record, f, m); f++)
         if (!strcmp(m->name, name))
             return true;
     return false;

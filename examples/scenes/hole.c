@@ -10,7 +10,8 @@ enum { N = STRETCH_COMMON, SIZE, SQUARE, SKIP, OUT, LATTICE, SETTLE, PARAMS };
 #define STATIONS 19 /* on the quarter of the rim, every 5 degrees */
 
 static const scene_param param[PARAMS] = {
-    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0.5, 0, 0.99),
+    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_CORRECTED, SPH_NO_ARTIFICIAL_STRESS, 0.5,
+                        0, 0.99),
     STRETCH_PARAMS(5e-6, 7, 20),
     {"n", "-", "particles across the block, an even number", 140, 20, 4000, SCENE_WHOLE},
     {"size", "cm", "edge of the block", 7, 0.1, 1e3, SCENE_NUMBER},
@@ -41,7 +42,7 @@ static sph_status build(sph_sim *sim, const double *p)
     return stretch_build(sim, p, &b, &rock, NULL);
 }
 
-static double end(const double *p) { return p[STRETCH_PULL] + p[SETTLE]; }
+static double end(const double *p) { return p[STRETCH_PULL] * p[STRETCH_SLOW] + p[SETTLE]; }
 
 static const char *const column[] = {"time", "drawn_cm", "p1_K", "kinetic", "elastic", "peak_particle", "peak_rim", "at_deg",
                                      "rim_0", "rim_5", "rim_10", "rim_15", "rim_20", "rim_25", "rim_30", "rim_35", "rim_40", "rim_45",
@@ -58,7 +59,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     row[2] = p1;
     row[3] = o.kinetic;
     row[4] = o.elastic + o.internal;
-    row[5] = stretch_peak(sim, &b, 0) / unit;
+    row[5] = stretch_peak(sim) / unit;
     row[6] = row[7] = 0;
     stretch_rim(sim, &b, p[SKIP] * b.dx, p[OUT] * a, STATIONS, row + 8);
     for (int k = 0; k < STATIONS; k++) {

@@ -4,10 +4,10 @@
    clump? With a plane wave: its amplitude by projection on the wave, from which a frequency or a rate of growth follows
    (`sph dispersion` has the theory).
 
-   Pressure: p = c0^2 (lambda rho - rho0) (his eq 5.78; lambda < 1: tension) with the start at `rho` times rho0. lambda rho - rho0 =
-   lambda (rho - rho0/lambda): the material is one of rest density rho0/lambda and sound speed sqrt(lambda) c0, whose bulk
-   modulus is the same. rho = lambda with lambda = 1 would give the same pressures, and every frequency 1/sqrt(lambda) times
-   larger, as the same stresses move less mass.
+   Pressure: p = c0^2 (lambda rho - rho0) (his eq 5.78; lambda < 1: tension) with the start at `rho` times rho0. As lambda rho
+   - rho0 = lambda (rho - rho0/lambda), the material is one of rest density rho0/lambda and sound speed sqrt(lambda) c0, whose
+   bulk modulus is the same. rho = lambda with lambda = 1 would give the same pressures, and every frequency 1/sqrt(lambda)
+   times larger, as the same stresses move less mass.
 
    The history looks at every pair, a block of places at a time: it costs n^4 and is meant for n below 100. */
 #include "solid.h"
@@ -104,14 +104,13 @@ static double end(const double *p) { return p[DURATION] * p[SIDE]; }
 
 /* ---- history: who is near whom ---- */
 
-/* Neighbours of BLOCK places. Lengths in spacings. NEAR lies between the neighbours and the diagonals of both lattices
-   (1, 1.414; 1.118, 1.803); BESIDE takes the sides and the diagonal of a clump of four. */
+/* Neighbours of BLOCK places. NEAR, in spacings, lies between the distances of the second neighbours of the face-centred and
+   the square lattice (1.118, 1.414): the one has six so near, the other four. */
 #define BLOCK 256
 #define NEAR 1.27
-#define BESIDE 1.1
 typedef struct around {
     double x[BLOCK][2], least2[BLOCK]; /* least2: to the nearest */
-    uint16_t near[BLOCK], beside[BLOCK];
+    uint16_t near[BLOCK];
 } around;
 
 /* others: the places are particles, which are not their own neighbours */
@@ -121,7 +120,7 @@ static void look(const sph_sim *sim, const double *p, around *a, uint32_t n, boo
     sph_particle q;
     for (uint32_t i = 0; i < n; i++) {
         a->least2[i] = side * side;
-        a->near[i] = a->beside[i] = 0;
+        a->near[i] = 0;
     }
     for (uint32_t j = 0; j < sph_count(sim); j++) {
         if (sph_get(sim, j, &q) != SPH_OK)
@@ -137,14 +136,14 @@ static void look(const sph_sim *sim, const double *p, around *a, uint32_t n, boo
                 continue;
             a->least2[i] = r2 < a->least2[i] ? r2 : a->least2[i];
             a->near[i] = (uint16_t)(a->near[i] + (r2 < NEAR * NEAR * dx * dx));
-            a->beside[i] = (uint16_t)(a->beside[i] + (r2 < BESIDE * BESIDE * dx * dx));
         }
     }
 }
 
 typedef struct order {
-    double nearest_min, nearest_mean, fours, face_centred; /* shares of the particles */
-    double hole;                                           /* largest distance of a place from the nearest particle */
+    double nearest_min, nearest_mean;
+    double face_centred; /* share of the particles */
+    double hole;         /* largest distance of a place from the nearest particle */
 } order;
 
 static void order_of_particles(const sph_sim *sim, const double *p, order *o)
@@ -162,7 +161,6 @@ static void order_of_particles(const sph_sim *sim, const double *p, order *o)
         for (uint32_t i = 0; i < n; i++) {
             least = a.least2[i] < least ? a.least2[i] : least;
             o->nearest_mean += __builtin_sqrt(a.least2[i]) / count;
-            o->fours += a.beside[i] == 3 ? 1.0 / count : 0;
             o->face_centred += a.near[i] == 6 ? 1.0 / count : 0;
         }
     }
@@ -178,8 +176,9 @@ static void order_of_holes(const sph_sim *sim, const double *p, order *o)
     for (uint32_t first = 0; first < m * m; first += BLOCK) {
         const uint32_t n = m * m - first < BLOCK ? m * m - first : BLOCK;
         for (uint32_t i = 0; i < n; i++) {
-            a.x[i][0] = (first + i) % m * 0.5 * spacing(p);
-            a.x[i][1] = (first + i) / m * 0.5 * spacing(p);
+            const uint32_t column = (first + i) % m, line = (first + i) / m;
+            a.x[i][0] = 0.5 * column * spacing(p);
+            a.x[i][1] = 0.5 * line * spacing(p);
         }
         look(sim, p, &a, n, false);
         for (uint32_t i = 0; i < n; i++)
@@ -188,9 +187,8 @@ static void order_of_holes(const sph_sim *sim, const double *p, order *o)
     o->hole = __builtin_sqrt(most);
 }
 
-static const char *const column[] = {"time_cm/c0",      "nearest_min_dx", "nearest_mean_dx", "fours_-",
-                                     "face_centred_-",  "hole_dx",        "kinetic_K.cm2",   "stress_mean_K",
-                                     "stress_rms_K",    "along_c0",       "across_c0"};
+static const char *const column[] = {"time_cm/c0",    "nearest_min_dx", "nearest_mean_dx", "face_centred_-", "hole_dx",
+                                     "kinetic_K.cm2", "stress_mean_K",  "stress_rms_K",    "along_c0",       "across_c0"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {
@@ -215,14 +213,13 @@ static void history(const sph_sim *sim, const double *p, double *row)
     row[0] = sph_time(sim);
     row[1] = o.nearest_min / dx;
     row[2] = o.nearest_mean / dx;
-    row[3] = o.fours;
-    row[4] = o.face_centred;
-    row[5] = o.hole / dx;
-    row[6] = t.kinetic;
-    row[7] = mean;
-    row[8] = __builtin_sqrt(square > mean * mean ? square - mean * mean : 0);
-    row[9] = norm > 0 ? along / norm : 0;
-    row[10] = norm > 0 ? over / norm : 0;
+    row[3] = o.face_centred;
+    row[4] = o.hole / dx;
+    row[5] = t.kinetic;
+    row[6] = mean;
+    row[7] = __builtin_sqrt(square > mean * mean ? square - mean * mean : 0);
+    row[8] = norm > 0 ? along / norm : 0;
+    row[9] = norm > 0 ? over / norm : 0;
 }
 
 #define scene_lattice_box SPH_NAME(scene_lattice_box)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* pulse.c: a longitudinal elastic wave on a periodic sheet (Gray 2001, section 5.6.1). The velocity v_x = V exp(-((x - L/2)/w)^2)
-   of an unstrained sheet parts into two pulses of V/2 that travel apart. (His exponent lacks the minus sign.)
+/* pulse.c: a longitudinal elastic wave on a periodic sheet (Gray 2001, section 5.6.1). The velocity
+   v_x = V exp(-((x - L/2)/w)^2) of an unstrained sheet parts into two pulses of V/2 that travel apart. (His exponent lacks the
+   minus sign.)
 
    Small waves travel at c_l = sqrt(c0^2 + 4 mu/(3 rho)). His V is not small: the pulse to the right is a compression and the
    other one a rarefaction, and where they no longer overlap each is a simple wave, whose crest keeps v = V/2 and travels at
@@ -23,7 +24,11 @@ static const scene_param param[PARAMS] = {
     {"duration", "L/c_l", "length of the run; after 1 the pulses are back in the middle", 0.4, 0, 1000, SCENE_NUMBER},
 };
 
-static double even(double n) { return (double)((uint32_t)n / 2 * 2); }
+static double even(double n)
+{
+    const uint32_t half = (uint32_t)n / 2;
+    return 2.0 * half;
+}
 static double spacing(const double *p) { return p[LENGTH] / even(p[N]); }
 static double width(const double *p) { return p[WIDTH] * p[LENGTH]; }
 static double speed_at(const double *p, double rho) { return __builtin_sqrt(1 + 4 * p[SOLID_MU] / (3 * rho)); }
@@ -87,9 +92,9 @@ static double apart(const double *p, double x, double from)
     return d > 0.5 * p[LENGTH] ? d - p[LENGTH] : d < -0.5 * p[LENGTH] ? d + p[LENGTH] : d;
 }
 
-/* Least squares of v_x around `at` by a cubic in s = (x - at)/reach, |s| < 1, with weights that fall to 0 at the ends, so that
-   it does not matter which particles are just inside: moves `at` to its maximum (at most half a reach) and gives the value
-   there. */
+/* Least squares of v_x around `at` by a cubic in s = (x - at)/reach, |s| < 1, with weights that fall to 0 at the ends, so
+   that it does not matter which particles are just inside: moves `at` to its maximum (at most half a reach) and gives the
+   value there. */
 static double fit_crest(const sph_sim *sim, const double *p, double reach, double *at)
 {
     double a[4][5] = {{0}};

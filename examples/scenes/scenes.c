@@ -20,7 +20,8 @@
     X(brittle)                                                                                              \
     X(hole)                                                                                                 \
     X(chamber)                                                                                              \
-    X(block)
+    X(block)                                                                                                \
+    X(caldera)
 #else
 #define SCENE_LIST(X) X(dam_break_3d)
 #endif

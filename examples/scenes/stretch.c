@@ -33,11 +33,12 @@ void break_configure(const double *p, sph_config *c)
     c->max_flaws = scene_capacity(n * (sph_log(n + 1) * 1.5 + 4)); /* n ln n, and what the last bare particles cost */
 }
 
-double stretch_drawn(const double *p, double t)
+/* where an end is at time t, and how fast it goes: up to speed evenly, on, and evenly to rest */
+static double drawn(const double *p, double t, double *speed)
 {
-    const double ramp = p[STRETCH_RAMP], v = p[STRETCH_SPEED];
-    const double rest = p[STRETCH_PULL] > 0 ? p[STRETCH_PULL] > 2 * ramp ? p[STRETCH_PULL] : 2 * ramp : 1e300;
-    const double left = rest - t;
+    const double slow = p[STRETCH_SLOW], v = p[STRETCH_SPEED] / slow, ramp = p[STRETCH_RAMP] * slow, pull = p[STRETCH_PULL] * slow;
+    const double rest = pull > 0 ? pull > 2 * ramp ? pull : 2 * ramp : 1e300, left = rest - t;
+    *speed = left <= 0 ? 0 : t < ramp ? v * t / ramp : left < ramp ? v * left / ramp : v;
     if (left <= 0)
         return v * (rest - ramp);
     if (t < ramp)
@@ -47,30 +48,27 @@ double stretch_drawn(const double *p, double t)
     return v * (t - ramp / 2);
 }
 
-static double speed_at(const double *p, double t)
+double stretch_drawn(const double *p, double t)
 {
-    const double ramp = p[STRETCH_RAMP], v = p[STRETCH_SPEED];
-    const double rest = p[STRETCH_PULL] > 0 ? p[STRETCH_PULL] > 2 * ramp ? p[STRETCH_PULL] : 2 * ramp : 1e300;
-    const double left = rest - t;
-    return left <= 0 ? 0 : t < ramp ? v * t / ramp : left < ramp ? v * left / ramp : v;
+    double speed;
+    return drawn(p, t, &speed);
 }
 
 static void to_right(void *ctx, double t, double *x, double *v)
 {
-    x[0] = stretch_drawn(ctx, t);
-    v[0] = speed_at(ctx, t);
+    x[0] = drawn(ctx, t, &v[0]);
 }
 static void to_left(void *ctx, double t, double *x, double *v)
 {
-    x[0] = -stretch_drawn(ctx, t);
-    v[0] = -speed_at(ctx, t);
+    x[0] = -drawn(ctx, t, &v[0]);
+    v[0] = -v[0];
 }
 
 /* ---- a lattice bent round a circular hole ---- */
 
-/* The square lattice is made of square rings about the origin; here ring number k >= first lies between the curves k and k + 1.
-   The first curve is the circle, the last the square, those between lie between; each holds the area of its square (the
-   difference of the first is shared out), and the particles of a ring have equal parts of its area. So the particles stand as
+/* The square lattice is made of square rings about the origin; here ring number k >= first lies between the curves k and
+   k + 1. The first curve is the circle, the last the square, the others lie between. Each holds the area of its square (the
+   difference of the first is shared out), and the particles of a ring have equal parts of its area: they stand almost as
    regularly as on the lattice, each on an area of dx^2, and the hole has no steps. */
 typedef struct bent {
     uint32_t first, last; /* curves */
@@ -100,7 +98,7 @@ static double curve(const bent *o, uint32_t k, double x)
 
 static sph_status add_ring(sph_sim *sim, uint32_t set, const bent *o, uint32_t k)
 {
-    double size[2], sum[2] = {0, 0}, inner[FINE + 1], outer[FINE + 1], part[FINE + 1];
+    double size[2], sum[2] = {0, 0}, between[2] = {0, 0}, inner[FINE + 1], outer[FINE + 1], part[FINE + 1];
     for (int i = 0; i <= FINE; i++) {
         inner[i] = curve(o, k, (double)i / FINE);
         outer[i] = curve(o, k + 1, (double)i / FINE);
@@ -114,8 +112,10 @@ static sph_status add_ring(sph_sim *sim, uint32_t set, const bent *o, uint32_t k
     for (int i = 0; i <= FINE; i++) {
         inner[i] *= size[0];
         outer[i] *= size[1];
+        between[1] = outer[i] * outer[i] - inner[i] * inner[i];
         if (i > 0)
-            part[i] = part[i - 1] + outer[i] * outer[i] - inner[i] * inner[i] + outer[i - 1] * outer[i - 1] - inner[i - 1] * inner[i - 1];
+            part[i] = part[i - 1] + between[0] + between[1];
+        between[0] = between[1];
     }
     for (uint32_t j = 0; j <= 2 * k; j++) { /* the one at 45 degrees is number k */
         const uint32_t m = j <= k ? j : 2 * k - j;
@@ -149,7 +149,8 @@ static sph_status add_bent(sph_sim *sim, uint32_t set, const stretch *b, const d
 
 sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const sph_solid *rock, const sph_flaws *flaws)
 {
-    const double grip = p[STRETCH_GRIP] * b->dx, right[2] = {b->hi[0] - grip, b->lo[1]}, left[2] = {b->lo[0] + grip, b->hi[1]};
+    const double grip = p[STRETCH_GRIP] * b->dx;
+    const double right[2] = {b->hi[0] - grip, b->lo[1]}, left[2] = {b->lo[0] + grip, b->hi[1]};
     sph_shape s = {.hole = &b->hole, .holes = b->has_hole};
     sph_solid end = *rock;
     uint32_t set;
@@ -167,7 +168,8 @@ sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const 
         (st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK || (st = sph_add_box(sim, set, right, b->hi, NULL)) != SPH_OK)
         return st;
     end.motion = to_left;
-    if (!b->half && ((st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK || (st = sph_add_box(sim, set, b->lo, left, NULL)) != SPH_OK))
+    if (!b->half && ((st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK ||
+                     (st = sph_add_box(sim, set, b->lo, left, NULL)) != SPH_OK))
         return st;
     if (!b->has_gas)
         return SPH_OK;
@@ -200,20 +202,20 @@ static double off_rim(const sph_ellipse *e, const double *x)
     return q > 0 ? __builtin_sqrt(d[0] * d[0] + d[1] * d[1]) * (1 - 1 / q) : -e->radius[0];
 }
 
-double stretch_peak(const sph_sim *sim, const stretch *b, double near)
+double stretch_peak(const sph_sim *sim)
 {
     double most = 0;
     sph_particle q;
     for (uint32_t i = 0; i < sph_count(sim); i++)
-        if (sph_get(sim, i, &q) == SPH_OK && q.set == STRETCH_ROCK && (!(near > 0) || off_rim(&b->hole, q.x) < near))
+        if (sph_get(sim, i, &q) == SPH_OK && q.set == STRETCH_ROCK)
             most = q.stress[0] + q.stress[1] > most ? q.stress[0] + q.stress[1] : most;
     return most;
 }
 
 enum { TERMS = 6, MOST = 9, RIGHT = 3 };
 
-/* solves a f = b for so many unknowns and 3 right-hand sides by elimination with pivots on the diagonal (a is a matrix of normal
-   equations); false if it is nearly singular */
+/* solves n normal equations for 3 right-hand sides by elimination with pivots on the diagonal; the solutions replace f.
+   False if they are nearly singular */
 static bool solve(int n, double (*a)[MOST], double (*f)[RIGHT])
 {
     const double least = 1e-9 * a[0][0];
@@ -316,6 +318,19 @@ void stretch_rim(const sph_sim *sim, const stretch *b, double skip, double out, 
         for (int j = 0; j < MOST && fine; j++)
             sum[k] += term[j] * f[j][0];
     }
+}
+
+void stretch_load(const stretch *b, double p, const double *x, double *a)
+{
+    const sph_ellipse *e = &b->hole;
+    const double u = (x[0] - e->centre[0]) / e->radius[0], v = (x[1] - e->centre[1]) / e->radius[1];
+    const double g[2] = {u / e->radius[0], v / e->radius[1]}, size = __builtin_sqrt(g[0] * g[0] + g[1] * g[1]);
+    const double q = __builtin_sqrt(u * u + v * v), wide = 3 * b->dx;
+    const double off = size > 0 ? (q - 1) * q / size : -1; /* (q - 1)/|grad q| */
+    if (off < 0 || off >= wide)
+        return;
+    for (int k = 0; k < 2; k++)
+        a[k] += p * (2 / wide) * (1 - off / wide) * g[k] / size;
 }
 
 void stretch_look(const sph_sim *sim, const stretch *b, stretch_broken *out)

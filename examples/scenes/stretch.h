@@ -9,19 +9,20 @@
 #if SPH_DIM == 2
 
 /* parameters that these scenes take after those of all solids */
-enum { STRETCH_SPEED = SOLID_COMMON, STRETCH_RAMP, STRETCH_PULL, STRETCH_GRIP, STRETCH_COMMON };
+enum { STRETCH_SPEED = SOLID_COMMON, STRETCH_RAMP, STRETCH_PULL, STRETCH_GRIP, STRETCH_SLOW, STRETCH_COMMON };
 #define STRETCH_PARAMS(speed_, ramp_, pull_)                                                                           \
     {"speed", "c0", "velocity of each end (Gray's V_f)", speed_, 0, 0.1, SCENE_NUMBER},                                \
     {"ramp", "cm/c0", "how long the ends take to come to speed, and to rest again", ramp_, 0, 1e6, SCENE_NUMBER},      \
     {"pull", "cm/c0", "when the ends are at rest again, at least twice the ramp; 0: never", pull_, 0, 1e6,             \
      SCENE_NUMBER},                                                                                                    \
-    {"grip", "dx", "columns of particles held along x at each end", 2, 1, 20, SCENE_WHOLE}
+    {"grip", "dx", "columns of particles held along x at each end", 2, 1, 20, SCENE_WHOLE},                            \
+    {"slow", "-", "the ends go as far, but slower by this factor", 1, 0.01, 1000, SCENE_NUMBER}
 
 /* and those that break, after these */
 enum { BREAK_DAMAGE = STRETCH_COMMON, BREAK_K, BREAK_M, BREAK_CRACK, BREAK_RADIUS, BREAK_SEED, BREAK_COMMON };
 #define BREAK_PARAMS(damage_, k_, radius_)                                                                             \
     {"damage", "-", "damage: none benz_asphaug benz_asphaug_gray", damage_, 0, 2, SCENE_CHOICE},                       \
-    {"k", "1/cm^2", "Weibull's k of the flaws", k_, 1, 1e300, SCENE_NUMBER},                                           \
+    {"k", "1/cm^2", "Weibull's k of the flaws", k_, 0, 1e300, SCENE_NUMBER},                                           \
     {"m", "-", "Weibull's m of the flaws", 8.5, 1, 50, SCENE_NUMBER},                                                  \
     {"crack", "c0", "speed of cracks", 0.4, 1e-6, 1, SCENE_NUMBER},                                                    \
     {"radius", "cm", "radius of flaws; 0: of the disc of a particle's area", radius_, 0, 1e3, SCENE_NUMBER},           \
@@ -40,11 +41,11 @@ typedef struct stretch {
 /* domain, faces and capacities of a scene of such a block */
 #define stretch_configure SPH_NAME(stretch_configure)
 void stretch_configure(const double *p, const stretch *b, sph_config *c);
-/* the damage's part of a configuration, for n particles */
+/* the damage's part of a configuration whose max_particles is set */
 #define break_configure SPH_NAME(break_configure)
 void break_configure(const double *p, sph_config *c);
 
-/* Rock, ends and gas. p must live as long as the simulation: the ends' motion reads it. Sets: STRETCH_ROCK .. */
+/* Rock, ends and gas. p must live as long as the simulation: the ends' motion reads it. Gas goes with whole blocks. */
 enum { STRETCH_ROCK, STRETCH_RIGHT, STRETCH_LEFT, STRETCH_GAS };
 #define stretch_build SPH_NAME(stretch_build)
 sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const sph_solid *rock, const sph_flaws *flaws);
@@ -56,9 +57,9 @@ double stretch_drawn(const double *p, double t);
 /* mean sxx of the rock with from <= |x| that is not held: the force on an end over its length, once all is at rest */
 #define stretch_end_stress SPH_NAME(stretch_end_stress)
 double stretch_end_stress(const sph_sim *sim, double from);
-/* largest sxx + syy of a particle of rock, the greatest distance from a hole's rim being `near` (0: anywhere) */
+/* largest sxx + syy of a particle of rock */
 #define stretch_peak SPH_NAME(stretch_peak)
-double stretch_peak(const sph_sim *sim, const stretch *b, double near);
+double stretch_peak(const sph_sim *sim);
 
 /* Stress xx, yy, xy at a place from the rock within `reach` of it, images in the mirror planes included, by a fit of
    a quadratic polynomial with weights (1 - q^2)^3. Where there are too few particles for that, the nearest one's. */
@@ -70,6 +71,11 @@ void stretch_sample(const sph_sim *sim, const stretch *b, const double *at, doub
    the radius `out`. (At the rim itself the gradients of particles are one-sided and lag behind by about a spacing.) */
 #define stretch_rim SPH_NAME(stretch_rim)
 void stretch_rim(const sph_sim *sim, const stretch *b, double skip, double out, uint32_t n, double *sum);
+
+/* Pressure p in a hole as a load on its rim: acceleration outwards of the rock (rho 1) at x within 3 dx of the rim, whose sum is
+   p on every length of the rim. For a body force. */
+#define stretch_load SPH_NAME(stretch_load)
+void stretch_load(const stretch *b, double p, const double *x, double *a);
 
 /* how much of the rock is broken */
 typedef struct stretch_broken {
