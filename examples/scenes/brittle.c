@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* brittle.c: a plate 3 x 1 cm with flaws is pulled apart and cracks (Gray 2001, section 6.4.2). The ends of 0.2 cm have no flaws,
-   and only the outermost particles are moved, at a steady speed: 5e-4, 1e-3 and 5e-3 c0 give strain rates of 3.33e-4, 6.67e-4
-   and 3.33e-3. Flaws k 1.4e19 /cm^2, m 8.5; cracks grow at 0.4 c0. */
+/* brittle.c: a plate 3 x 1 cm with flaws is pulled apart and cracks (Gray 2001, section 6.4.2). The ends of 0.2 cm have no
+   flaws, and only the outermost particles are moved, at a steady speed: 5e-4, 1e-3 and 5e-3 c0 give strain rates of
+   3.33e-4, 6.67e-4 and 3.33e-3. Flaws k 1.4e19 /cm^2, m 8.5; cracks grow at 0.4 c0. */
 #include "plate.h"
 #if SPH_DIM == 2
 
@@ -74,7 +74,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
         volume += q.mass / q.rho;
         pull += q.mass / q.rho * q.stress[0];
         damage += q.damage;
-        const double a = 0.5 * (q.stress[0] - q.stress[1]), most = 0.5 * (q.stress[0] + q.stress[1]) + __builtin_sqrt(a * a + q.stress[3] * q.stress[3]);
+        const double middle = 0.5 * (q.stress[0] + q.stress[1]), half = 0.5 * (q.stress[0] - q.stress[1]), xy = q.stress[3];
+        const double most = middle + __builtin_sqrt(half * half + xy * xy);
         largest = most > largest ? most : largest;
         if (q.damage > 0.99) {
             for (int k = 0; k < 2; k++) {

@@ -60,7 +60,8 @@ static inline sph_config plate_config(const double *p)
 }
 
 /* A set of the plate's particles with x from a to b. side: 0: moved by forces; -1, 1: held as the left or right end is. */
-static inline sph_status plate_add(sph_sim *sim, const double *p, const sph_solid *material, double a, double b, int side, uint32_t *set)
+static inline sph_status plate_add(sph_sim *sim, const double *p, const sph_solid *material, double a, double b, int side,
+                                   uint32_t *set)
 {
     sph_solid m = *material;
     const double lo[2] = {a, -0.5 * p[PLATE_HEIGHT]}, hi[2] = {b, 0.5 * p[PLATE_HEIGHT]};

@@ -36,7 +36,8 @@ static sph_status build(sph_sim *sim, const double *p)
     for (int side = 0; side < 2; side++) {
         sph_solid m = solid_material(p);
         const double sign = side ? 1 : -1;
-        const sph_ellipse rim = {{sign * p[OUTER], 0}, {p[OUTER], p[OUTER]}}, hole = {{sign * p[OUTER], 0}, {p[INNER], p[INNER]}};
+        const sph_ellipse rim = {{sign * p[OUTER], 0}, {p[OUTER], p[OUTER]}};
+        const sph_ellipse hole = {{sign * p[OUTER], 0}, {p[INNER], p[INNER]}};
         const sph_shape ring = {.outline = &rim, .hole = &hole, .holes = p[INNER] > 0, .velocity = {-sign * p[SPEED], 0}};
         uint32_t set;
         sph_status st;
