@@ -6,7 +6,8 @@
    flows into cracks. The flaws: k = 1.4e19 a cm^2, as elsewhere in the thesis; the weakest then fails at a strain of 2.5e-4. He
    writes 6e-4 (k=0 takes that), which the pressure alone never reaches. `slow` makes everything slower: stretching and pressure
    are then the same, but further from sound. Where the roof is blown out, the pieces of rock that are not wholly broken are
-   drawn apart until the run ends with BOND_TOO_LONG. */
+   drawn apart until the run ends with BOND_TOO_LONG. With Gray's own form (form=updated kernel=cubic alpha=0.5
+   repulsion=principal damping=1 cfl=0.3 printed=yes), which is softer at free faces, more breaks: his figures 7.6 and 7.7. */
 #include "stretch.h"
 #if SPH_DIM == 2
 
