@@ -100,6 +100,10 @@ void sph_make_factors(sph_sim *sim)
         f->small_p = (sph_real)(1e-6 * c->rho0 * c->sound_speed * c->sound_speed);
 }
 
+/* Vectors whose sums a home holds at a time: all that make up the eight lanes; where a register holds one real, lane after
+   lane, so that the sums of one stay in registers. The order within a lane is the same. */
+#define AT_ONCE (SPH_SCALAR ? 1 : SPH_NV)
+
 /* what a home particle brings to each pair, spread over the lanes once */
 typedef struct home {
     vreal x[SPH_DIM], v[SPH_DIM], rho, a, iv;
@@ -176,7 +180,7 @@ SPH_INLINE vreal power_of(vreal f, uint32_t n)
 }
 
 /* what a stress tensor gives: acceleration (T_i + T_j + (R_i + R_j) f^n) . K, and m v_ij (x) K for the velocity gradient */
-SPH_INLINE void solid_pair(const choice *c, const factors *f, const home *h, const sph_tile *t, uint32_t j, uint32_t nv, bool wall, vreal q, vreal mg, vreal iv, const vreal *kx, const vreal *dv, vreal (*s)[SPH_NV])
+SPH_INLINE void solid_pair(const choice *c, const factors *f, const home *h, const sph_tile *t, uint32_t j, uint32_t nv, bool wall, vreal q, vreal mg, vreal iv, const vreal *kx, const vreal *dv, vreal (*s)[AT_ONCE])
 {
     const sph_solid_tile *st = h->tile;
     const bool weak = sph_weak_scheme(c->scheme);
@@ -212,7 +216,7 @@ SPH_INLINE void solid_pair(const choice *c, const factors *f, const home *h, con
 
 /* one group of lanes: everything a pair gives to the home particle. wall: the candidates are ghosts */
 SPH_INLINE void pair(const choice *c, const factors *f, const home *h, const sph_thread *th, const sph_tile *t,
-                     uint32_t j, uint32_t nv, bool wall, vreal (*s)[SPH_NV])
+                     uint32_t j, uint32_t nv, bool wall, vreal (*s)[AT_ONCE])
 {
     vreal dx[SPH_DIM], dv[SPH_DIM], dw[SPH_DIM], kx[SPH_DIM]; /* kx: K, the vector that the kernel sees */
     SPH_UNROLL
@@ -364,27 +368,29 @@ SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, co
         spread_solid(solid, h, c, &o);
 #endif
     const uint32_t n = t->n;
-    vreal s[SPH_SUMS][SPH_NV];
+    vreal s[SPH_SUMS][AT_ONCE];
     const int used = (SPH_WITH_BOOKS && c->books ? (int)SUM_FORCE : SPH_WITH_XSPH && c->xsph ? (int)SUM_VISC : (int)SUM_XSPH) +
                      (c->solid ? SPH_NL : 0);
-    SPH_UNROLL
-    for (int a = 0; a < used; a++)
-        SPH_UNROLL
-        for (int k = 0; k < SPH_NV; k++)
-            s[a][k] = v_load(th->sum[a][h] + k * SPH_W);
     for (int a = used; a < SPH_SUMS; a++) /* never read; where the choices are constants this vanishes */
-        for (int k = 0; k < SPH_NV; k++)
+        for (int k = 0; k < AT_ONCE; k++)
             s[a][k] = v_set(0);
-    for (uint32_t j = 0; j < n; j += SPH_LANES) {
+    for (uint32_t from = 0; from < SPH_LANES; from += AT_ONCE * SPH_W) {
         SPH_UNROLL
-        for (uint32_t k = 0; k < SPH_NV; k++)
-            pair(c, f, &o, th, t, j + k * SPH_W, k, wall, s);
+        for (int a = 0; a < used; a++)
+            SPH_UNROLL
+            for (uint32_t k = 0; k < AT_ONCE; k++)
+                s[a][k] = v_load(th->sum[a][h] + from + k * SPH_W);
+        for (uint32_t j = from; j < n; j += SPH_LANES) {
+            SPH_UNROLL
+            for (uint32_t k = 0; k < AT_ONCE; k++)
+                pair(c, f, &o, th, t, j + k * SPH_W, k, wall, s);
+        }
+        SPH_UNROLL
+        for (int a = 0; a < used; a++)
+            SPH_UNROLL
+            for (uint32_t k = 0; k < AT_ONCE; k++)
+                v_store(th->sum[a][h] + from + k * SPH_W, s[a][k]);
     }
-    SPH_UNROLL
-    for (int a = 0; a < used; a++)
-        SPH_UNROLL
-        for (int k = 0; k < SPH_NV; k++)
-            v_store(th->sum[a][h] + k * SPH_W, s[a][k]);
 }
 
 /* every choice read at run time: the form that covers all */
