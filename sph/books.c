@@ -41,9 +41,9 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
     out->mass = s->mass;
     out->rho = s->rho0 * (1 + (double)b->rho[0][i]);
     out->p = sph_pressure(sim, s, (double)b->rho[0][i]);
+#if SPH_WITH_SOLID
     for (int k = 0; k < 3; k++)
         out->stress[k] = -out->p;
-#if SPH_WITH_SOLID
     if (sph_is_solid(s)) {
         out->damage = sph_stress_of(sim, b, i, out->stress);
         out->plastic = SPH_HAS_YIELD && b->plastic[0] ? (double)b->plastic[0][i] : 0;

@@ -169,6 +169,8 @@ static sph_status check_modules(const sph_config *c, sph_report *r)
 static sph_status check_solids(const sph_config *c, sph_report *r)
 {
     const bool solid = sph_has_solids(c);
+    if (!SPH_WITH_SOLID) /* whatever they ask for was refused as left out */
+        return SPH_OK;
     if (!solid && (c->yield || c->damage || c->artificial_stress || c->xsph_strain))
         return refuse(r, "solid", "a solid form, where yield, damage, artificial_stress or xsph_strain is on", c->solid);
     if (!solid)

@@ -197,7 +197,9 @@ static const char *fail_quantity(sph_status s)
     case SPH_OUT_OF_DOMAIN: return "x from the domain's low corner (m)";
     case SPH_MOVED_TOO_FAR: return "cells moved in one step";
     case SPH_WALL_CROSSED: return "depth inside the wall (m)";
+#if SPH_HAS_TOTAL
     case SPH_BOND_TOO_LONG: return "length of a bond (m)";
+#endif
     default: return "";
     }
 }

@@ -78,14 +78,14 @@ static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint3
         (st = check_positive(sim, solid ? "solid.rho0" : "fluid.rho0", f->rho0, 1e30f)) != SPH_OK ||
         (st = check_positive(sim, solid ? "solid.sound_speed" : "fluid.sound_speed", f->sound_speed, 1e15f)) != SPH_OK)
         return st;
-    if (f->own_eos && !sph_in(SPH_EOSES_IN, f->eos))
+    if (f->own_eos && (!SPH_WITH_SOLID || !sph_in(SPH_EOSES_IN, f->eos)))
         return sph_setup_bad(sim, "eos", "one of SPH_TAIT .. SPH_ISOTHERMAL, compiled in (modules.h)", f->eos);
     if (sim->sets == sim->cfg.max_sets)
         return sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most max_sets", sim->sets, SPH_NO_PARTICLE);
     sph_set *s = &sim->set[sim->sets];
     memset(s, 0, sizeof *s);
     s->group = SPH_MAX_GROUPS;
-    s->eos = (uint8_t)(f->own_eos ? f->eos : sim->cfg.eos);
+    s->eos = (uint8_t)(SPH_WITH_SOLID && f->own_eos ? f->eos : sim->cfg.eos);
     s->rho0 = f->rho0 > 0 ? f->rho0 : sim->cfg.rho0;
     s->c0 = f->sound_speed > 0 ? f->sound_speed : sim->cfg.sound_speed;
     s->mass = f->mass > 0 ? f->mass : s->rho0 * sph_setup_cell_volume(sim);

@@ -370,7 +370,7 @@ typedef struct sph_fluid {
     double mass;        /* of one particle, kg (per m of depth in 2-D, per m^2 in 1-D); 0: rho0 spacing^DIM */
     double rho0;        /* 0: that of the configuration */
     double sound_speed; /* 0: that of the configuration */
-    bool own_eos;       /* take the next field instead of the configuration's eos: a gas beside rock */
+    bool own_eos;       /* take the next field instead of the configuration's eos: a gas beside rock (SPH_WITH_SOLID) */
     uint32_t eos;
 } sph_fluid;
 #define sph_add_fluid SPH_NAME(add_fluid)
@@ -617,7 +617,8 @@ typedef struct sph_particle {
     uint32_t id, set, role;
     double x[SPH_DIM], v[SPH_DIM], a[SPH_DIM]; /* m, m/s, m/s^2 (0 before the first forces) */
     double rho, p, mass;                      /* kg/m^3, Pa, kg */
-    double stress[6];                         /* Pa: xx, yy, zz, xy, xz, yz, tension positive, after damage; a fluid's is -p I */
+    double stress[6];                         /* Pa: xx, yy, zz, xy, xz, yz, tension positive, after damage; a fluid's is -p I;
+                                                 0 where SPH_WITH_SOLID is off */
     double plastic, damage;                   /* equivalent plastic strain; D, 0 .. 1 */
 } sph_particle;
 #define sph_count SPH_NAME(count)
