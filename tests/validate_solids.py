@@ -551,8 +551,8 @@ GROUPS.append(chambers)
 # ends come to speed does not count. Half of Gray's particles across: ten seeds are about ten minutes of a core.
 
 def first(run, count=1):
-    """Row of the history in which so many particles are fully damaged first."""
-    return next(i for i, n in enumerate(run.col("full_particles")) if n >= count)
+    """Row of the history in which so many particles are fully damaged first; the last row if none is."""
+    return next((i for i, n in enumerate(run.col("full_particles")) if n >= count), -1)
 
 
 def broken_at(run):
@@ -566,7 +566,7 @@ def median(values):
 
 def blocks(quick, add):
     seeds = range(1, 3 if quick else 11)
-    kinds = (("whole", 280, 250), ("hole", 160, 105), ("gas", 160, 80), ("load", 160, 80))
+    kinds = (("whole", 320, 250), ("hole", 160, 105), ("gas", 160, 80), ("load", 160, 80))
     runs = {k: [Run("block", kind=k, n=70, seed=s, damage="benz_asphaug_gray", end=end, every=1) for s in seeds]
             for k, end, _ in kinds}
     for k, _, gray in kinds:
