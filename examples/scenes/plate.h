@@ -5,6 +5,7 @@
 #define EXAMPLES_PLATE_H
 
 #include "solid.h"
+#if SPH_DIM == 2
 
 enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP, PLATE_DURATION,
        PLATE_COMMON };
@@ -74,4 +75,5 @@ static inline sph_status plate_add(sph_sim *sim, const double *p, const sph_soli
     return st ? st : sph_add_box(sim, *set, lo, hi, NULL);
 }
 
+#endif
 #endif
