@@ -175,7 +175,7 @@ static void the_mass_that_left_is_that_of_the_particles(void **state)
     c.hi[0] = N * DX;
     c.dt = 1e-3;
     sph_sim *sim = new_sim(&c);
-    sph_fluid heavy = {7, 0, 0};
+    sph_fluid heavy = {.mass = 7};
     uint32_t first, second;
     double x[SPH_DIM], v[SPH_DIM] = {3};
     for (int k = 0; k < SPH_DIM; k++)
