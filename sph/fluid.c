@@ -124,6 +124,10 @@ SPH_INLINE home spread_home(const sph_tile *t, uint32_t h)
     o.rho = v_set(t->rho[h]);
     o.a = v_set(t->a[h]);
     o.iv = v_set(t->iv[h]);
+#if SPH_WITH_SOLID
+    o.body = v_set(0); /* see spread_solid */
+    o.tile = NULL;
+#endif
     return o;
 }
 
@@ -447,15 +451,15 @@ SPH_FAST_LIST(SPH_FAST_FN)
     X(cubic_r, SPH_CUBIC, 4, false)                                                                         \
     X(w2, SPH_WENDLAND_C2, 0, false)                                                                        \
     X(w2_r, SPH_WENDLAND_C2, 4, false)                                                                      \
-    X(w2_t, SPH_WENDLAND_C2, 0, true)
+    X(w2_t, SPH_WENDLAND_C2, 0, SPH_HAS_TOTAL)
 #define SPH_FAST_FN(name, kernel_, power, total_)                                                           \
     static __attribute__((noinline)) void solid_##name(const factors *f, sph_thread *t, const sph_solid_scratch *solid, uint32_t homes) \
     {                                                                                                       \
-        static const choice c = {.kernel = kernel_, .viscosity = SPH_ARTIFICIAL, .solid = true, .total = SPH_HAS_TOTAL && (total_), \
+        static const choice c = {.kernel = kernel_, .viscosity = SPH_ARTIFICIAL, .solid = true, .total = total_, \
                                  .repulsion = power};                                                       \
         const factors own = *f;                                                                             \
         for (uint32_t h = 0; h < homes; h++)                                                                \
-            force_home(&c, &own, t, solid, h, false);                                                              \
+            force_home(&c, &own, t, solid, h, false);                                                       \
     }
 SPH_FAST_SOLIDS(SPH_FAST_FN)
 #undef SPH_FAST_FN
@@ -471,11 +475,11 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
     const uint32_t power = sph_repels(c) ? c->stress_exponent : 0;
 #if SPH_WITH_FAST_PATHS
 #if SPH_WITH_SOLID
-    if (solid && role == SPH_ROLE_FLUID && SPH_IS(c->scheme, STANDARD) && c->beta == 0 && c->xsph == 0 && !c->books &&
-        SPH_IS(c->viscosity, ARTIFICIAL) && c->diffusion == SPH_NO_DIFFUSION) {
+    const bool usual = SPH_IS(c->viscosity, ARTIFICIAL) && c->diffusion == SPH_NO_DIFFUSION && c->beta == 0 && c->xsph == 0 && !c->books;
+    if (solid && usual && role == SPH_ROLE_FLUID && SPH_IS(c->scheme, STANDARD)) {
 #define SPH_FAST_TRY(name, k, n, whole)                                                                     \
     if (c->kernel == (k) && power == (n) && sph_is_total(c) == (whole)) {                                   \
-        solid_##name(&sim->fac, t, sph_solid_scratch_of(sim, t), homes);                                                                  \
+        solid_##name(&sim->fac, t, sph_solid_scratch_of(sim, t), homes);                                    \
         return;                                                                                             \
     }
         SPH_FAST_SOLIDS(SPH_FAST_TRY)

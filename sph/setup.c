@@ -65,7 +65,7 @@ double sph_setup_cell_volume(const sph_sim *sim)
     return v;
 }
 
-/* begins a set of fluid or solid: what both have; *out is the place for the rest */
+/* begins a set of fluid or solid: what both have; *out is the place for the rest, or stays null */
 static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint32_t *set, sph_set **out)
 {
     const char *const call = solid ? "sph_add_solid" : "sph_add_fluid";
@@ -97,8 +97,8 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
 {
     static const sph_fluid usual = {0, 0, 0, false, 0};
     sph_set *s = NULL;
-    sph_status st = begin_body(sim, false, f ? f : &usual, set, &s);
-    if (st)
+    const sph_status st = begin_body(sim, false, f ? f : &usual, set, &s);
+    if (!s)
         return st;
     s->role = SPH_ROLE_FLUID;
     sph_setup_finish_set(sim, s);
@@ -142,7 +142,7 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32
         return sph_setup_bad(sim, "solid", "a material", 0);
     const sph_fluid as_fluid = {m->mass, m->rho0, m->sound_speed, true, SPH_LINEAR};
     sph_status st = begin_body(sim, true, &as_fluid, set, &s);
-    if (st || (st = check_solid(sim, m)) != SPH_OK)
+    if (!s || (st = check_solid(sim, m)) != SPH_OK)
         return st;
     s->role = SPH_ROLE_SOLID;
     sph_material *rock = &sim->material[sim->sets];

@@ -82,7 +82,7 @@ static sph_status build(sph_sim *sim, const double *p)
     const double dx = spacing(p), rows = clamp_rows(p) * dx, half = 0.5 * p[THICK], gray = whole(p, CLAMP_LENGTH);
     double values[PARAMS];
     sph_solid m = solid_material(p);
-    uint32_t plate, clamp;
+    uint32_t plate = 0, clamp = 0;
     for (int k = 0; k < PARAMS; k++)
         values[k] = p[k];
     sph_status st = sph_add_solid(sim, &m, &plate, NULL);
