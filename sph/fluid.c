@@ -370,6 +370,8 @@ SPH_INLINE void force_home(const choice *c, const factors *f, sph_thread *th, co
 #if SPH_WITH_SOLID
     if (c->solid)
         spread_solid(solid, h, c, &o);
+#else
+    (void)solid;
 #endif
     const uint32_t n = t->n;
     vreal s[SPH_SUMS][AT_ONCE];
