@@ -54,6 +54,8 @@ sph_config scene_config(const double *p, double dx, double rho0, double sound_sp
     c.damping = p[SCENE_DAMPING];
     c.dt = p[SCENE_DT];
     c.cfl = p[SCENE_CFL];
+    /* Wickramarachchi's limit with gravity is a Courant number too, and shall not bind before the one that is asked for */
+    c.gravity_factor = c.cfl > c.gravity_factor ? c.cfl : c.gravity_factor;
     c.books = p[SCENE_BOOKS] != 0;
     c.on_leave = SPH_REMOVE;
     c.on_cross = (uint32_t)p[SCENE_CROSS];
