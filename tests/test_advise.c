@@ -77,6 +77,7 @@ static const char dam[] = "method,adami,float,15,,5.2,10,100,1000,2e4,1,,n=15\n"
                           "precision,adami,double,60,,0.4,10,100,98000,4e6,1,,n=60\n"
                           "courant,adami,float,15,2,,3,30,300,9,0.1,\"step 3 failed: density, particle 7\",\"n=15 dt=1\"\n"
                           "courant,adami,float,15,1,0.1,3,30,300,9,0.5,,\"n=15 dt=0.5\"\n"
+                          "courant,adami,float,15,0.5,1.9,3,30,600,4e3,1,,\"n=15 dt=0.2\"\n"
                           "method,none,float,15,,1.4,10,100,500,,1,,\"n=15 wall=none\"\n";
 
 static void the_cheapest_that_reaches_it_is_taken(void **state)
@@ -92,8 +93,12 @@ static void the_cheapest_that_reaches_it_is_taken(void **state)
     says("cheaper     error 2.5 % at 0.667 of the instructions: sph run dam n=30\n");
     says("best known  error 0.4 % (wanted: 5 times that) at 13.3 times the instructions: ");
     says("instructions: sph run dam n=60 precision=double\n");
-    says("left out    2 runs that blew up");
+    says("left out    3 runs whose time step was set by hand");
     says("left out    1 runs without a count of instructions");
+    assert_int_equal(advise("dam", "error=2%", "step=any"), 0);
+    says("run         sph run dam n=15 dt=0.2\n");
+    says("note        its time step was set by hand");
+    says("left out    2 runs that blew up");
     assert_int_equal(advise("dam", "error=1.5%"), 0); /* at most: the bound itself is in */
     says("run         sph run dam n=30 wall=ghost\n");
     assert_int_equal(advise("dam", "error=2%", "cost=pairs"), 0);
@@ -127,7 +132,7 @@ static void what_is_not_reached_is_said_and_not_extrapolated(void **state)
     says_not("\nrun ");
     assert_int_equal(advise("dam", "error=0.45%", "precision=float"), 1);
     says("best known  sph run dam n=60\n");
-    put_table("dam.csv", HEAD("dam", "dam", "%"), "courant,a,float,15,2,,3,30,300,9,0.1,blew up,n=15\n");
+    put_table("dam.csv", HEAD("dam", "dam", "%"), "method,a,float,15,2,,3,30,300,9,0.1,blew up,n=15\n");
     assert_int_equal(advise("dam", "error=50%"), 1);
     says("not known   no run was measured to its end\n");
 }
@@ -233,6 +238,7 @@ static void wrong_usage_is_refused(void **state)
     assert_int_equal(advise("dam", "error=2%", "study=dma"), 2);
     assert_int_equal(advise("dam", "error=2%", "precision=half"), 2);
     assert_int_equal(advise("dam", "error=2%", "cost=seconds"), 2);
+    assert_int_equal(advise("dam", "error=2%", "step=fixed"), 2);
     assert_int_equal(advise("dam", "error=2%", "colour=red"), 2);
     assert_int_equal(advise("dam", "error=2%", "tables=/nowhere/at/all"), 1);
     assert_string_equal(said, "");

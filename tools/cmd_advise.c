@@ -10,13 +10,14 @@
 
 static const char help[] =
     "usage: sph advise SCENE error=2% [precision=float|double] [cost=instructions|pairs] [study=NAME]\n"
-    "                  [tables=tests/lab]\n"
+    "                  [step=controlled|any] [tables=tests/lab]\n"
     "The cheapest run known of a scene whose error is at most that, from the tables of measured runs in a folder: its\n"
     "command, error, cost, what it rests on, the next cheaper run, and the best one known.\n"
     "  error=      with the unit of the study's norm, as 2% or 0.1cm\n"
     "  precision=  only runs in it; both unless given\n"
     "  cost=       instructions of the whole run (counted, default build), or candidate pairs looked at\n"
     "  study=      one study; a scene may have several, with norms of their own: what is chosen meets all of that unit\n"
+    "  step=       any: runs whose time step was set by hand too, some at the edge of what is stable\n"
     "Exit code 1 where nothing is known: no study of the scene, or no run that reaches the error. Runs that blew up or\n"
     "did not reach their end are left out.\n";
 
@@ -38,7 +39,8 @@ typedef struct advice {
     int precision, cost; /* precision: 0 float, 1 double, 2 both; cost: number of a run */
     studies tables;
     choice *choice;
-    uint32_t choices, failed, uncounted;
+    uint32_t choices, failed, uncounted, by_hand;
+    bool any_step;
 } advice;
 
 /* ---- configurations ---- */
@@ -92,6 +94,10 @@ static void take_runs(advice *a, uint32_t s)
         const study_run *r = &t->run[i];
         if (a->precision < 2 && r->is_double != (a->precision == 1))
             continue;
+        if (!a->any_step && !strcmp(r->sweep, "courant")) {
+            a->by_hand++;
+            continue;
+        }
         if (r->number[STUDY_ERROR] < 0 || r->number[STUDY_ENDED] < 1 || *r->cause) {
             a->failed++;
             continue;
@@ -188,7 +194,7 @@ static void put_basis(const advice *a, const choice *c, uint32_t mask)
                *t->norm ? t->norm : "norm not said", *t->reference ? t->reference : "not said");
         printf("rests on    %s line %lu (sweep %s, %s)\n", t->file, r->line, r->sweep, r->label);
         if (!strcmp(r->sweep, "courant"))
-            printf("note        a fixed time step, without step control: it holds for these options alone\n");
+            printf("note        its time step was set by hand: it holds for these options alone\n");
         first = 0;
     }
 }
@@ -274,6 +280,8 @@ static void put_rest(const advice *a)
         }
     if (a->failed)
         printf("left out    %u runs that blew up, ended early or gave no figure\n", a->failed);
+    if (a->by_hand)
+        printf("left out    %u runs whose time step was set by hand (step=any takes them in)\n", a->by_hand);
     if (a->uncounted)
         printf("left out    %u runs without a count of %s\n", a->uncounted, cost_name(a));
 }
@@ -339,6 +347,7 @@ static bool parse_error(advice *a, const char *text)
 static bool take_options(advice *a, int argc, char **argv)
 {
     static const char *const precisions[] = {"float", "double", NULL}, *const costs[] = {"instructions", "pairs", NULL};
+    static const char *const steps[] = {"controlled", "any", NULL};
     const char *text = host_option(argc, argv, "error");
     if (!text) {
         host_usage("error= is missing: the largest error that is wanted, as error=2%%");
@@ -356,13 +365,19 @@ static bool take_options(advice *a, int argc, char **argv)
             return false;
         a->cost = kind ? STUDY_PAIRS : STUDY_INSTRUCTIONS;
     }
+    if ((text = host_option(argc, argv, "step"))) {
+        const int kind = host_choice("step", text, steps);
+        if (kind < 0)
+            return false;
+        a->any_step = kind == 1;
+    }
     a->study = host_option(argc, argv, "study");
     return true;
 }
 
 int cmd_advise(int argc, char **argv)
 {
-    static const char *const known[] = {"error", "precision", "cost", "study", "tables", NULL};
+    static const char *const known[] = {"error", "precision", "cost", "study", "step", "tables", NULL};
     advice a;
     memset(&a, 0, sizeof a);
     host_command("advise");
