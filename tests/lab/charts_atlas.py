@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: MIT. Copyright the sph authors.
+"""charts_atlas.py: charts of the stability atlas (tests/lab/atlas_*.csv) and of the interpolation of fields (interpolation.csv)."""
+import os, sys
+
+import tables
+from plot import Axis, Chart, FONT, plain
+
+GROWTH = (0.01, 0.03, 0.1, 0.3, 1.0)                            # classes of growth rates in the maps
+SHADE = ("#ffffff", "#dcdcdc", "#b4b4b4", "#868686", "#505050", "#000000")
+
+
+def one(rows, key):
+    return list(dict.fromkeys(r[key] for r in rows))
+
+
+def num(r, key):
+    return tables.number(r.get(key))
+
+
+def start(name, head, title):
+    chart = Chart(name, head.get("title", title))
+    return chart
+
+
+def finish(chart, name, head):
+    for line in head[""]:
+        chart.note(line)
+    chart.note(f"Table tests/lab/{name}.csv, made by: {head.get('command', 'make atlas')}.")
+    return chart
+
+
+def grid_of(chart, panels, draw, height=230, columns=2, **kw):
+    """Small panels of the same axes, `columns` beside each other. draw(panel, key) fills one."""
+    for i, (key, title) in enumerate(panels):
+        p = chart.panel(height, kw["xlabel"], kw["ylabel"], kw["x"], kw["y"], title=title, beside=i % columns > 0, left=66, right=kw.get("right", 10))
+        draw(p, key)
+
+
+# ---- Courant numbers ----
+
+def courant(name, head, rows):
+    chart = start(name, head, "Largest stable Courant number: runs against linear theory")
+    values = [v for r in rows for v in (num(r, "measured"), num(r, "theory")) if v]
+    axis = Axis(values, True)
+    integrators, media = one(rows, "integrator"), one(rows, "medium")
+    for medium in media:
+        p = chart.panel(400, "linear theory, c dt/h", "measured, c dt/h", axis, axis, title=medium, right=190)
+        p.segment(axis.low, axis.low, axis.high, axis.high, "(3,3)", "#777777")
+        for i, integrator in enumerate(integrators):
+            mine = [r for r in rows if r["medium"] == medium and r["integrator"] == integrator and num(r, "theory") and num(r, "measured")]
+            mine.sort(key=lambda r: num(r, "theory"))
+            p.line([num(r, "theory") for r in mine], [num(r, "measured") for r in mine], i, integrator.replace("_", " "), lines=False, size=1)
+    off = sorted((r for r in rows if num(r, "ratio")), key=lambda r: -abs(num(r, "ratio") - 1))
+    share = sum(abs(num(r, "ratio") - 1) <= 0.05 for r in off)
+    chart.note(f"{share} of {len(off)} cases within 5 % of the theory (dotted line: equal). Farthest off:")
+    for r in off[:4]:
+        chart.note(f"{r['medium']} {r['scheme']}, {r['integrator'].replace('_', ' ')}, {r['kernel'].replace('_', ' ')}, h {r['h']} dx: "
+                   f"measured {r['measured']}, theory {r['theory']}", 12)
+    for medium in media:
+        for integrator in integrators:
+            mine = [num(r, "measured") for r in rows if r["medium"] == medium and r["integrator"] == integrator and num(r, "measured") is not None]
+            if mine:
+                chart.note(f"{medium}, {integrator.replace('_', ' ')}: {min(mine):.3g} to {max(mine):.3g}", 12)
+    return finish(chart, name, head)
+
+
+# ---- Swegle maps ----
+
+def swegle(name, head, rows):
+    chart = start(name, head, "Swegle test: growth rate over volume and h/dx")
+    volumes, hs = sorted({num(r, "volume") for r in rows}), sorted({num(r, "h") for r in rows})
+    x, y = Axis([0, len(volumes)], low=0, high=len(volumes)), Axis([0, len(hs)], low=0, high=len(hs))
+    some = range(0, len(volumes), max(1, len(volumes) // 5))
+    xticks = [(i + 0.5, f"{volumes[i]:g}") for i in some]
+    yticks = [(i + 0.5, f"{h:g}") for i, h in enumerate(hs)]
+    for form in one(rows, "form"):
+        for beside, what in enumerate(("measured", "theory")):
+            p = chart.panel(44 + 62 + 18 * len(hs), "volume V/V0", "h/dx", x, y, title=f"{form}: {what}", beside=beside > 0, left=66, right=10,
+                            xticks=xticks, yticks=yticks, grid=False)
+            for r in rows:
+                if r["form"] != form:
+                    continue
+                i, k, v = volumes.index(num(r, "volume")), hs.index(num(r, "h")), num(r, what)
+                if v is None:
+                    p.text(x.at(i + 0.5), y.at(k + 0.5), "?", anchor="center", size=FONT - 2)
+                else:
+                    p.rect(i, k, i + 1, k + 1, SHADE[sum(v >= g for g in GROWTH)])
+    z, w = Axis([0, 6], low=0, high=6), Axis([0, 1], low=0, high=1)
+    edges = ["below " + f"{GROWTH[0]:g}"] + [f"from {g:g}" for g in GROWTH]
+    p = chart.panel(70, "growth rate, c/dx", "", z, w, left=66, right=66, xticks=[(i + 0.5, t) for i, t in enumerate(edges)], yticks=[(2, "")], grid=False)
+    for i, shade in enumerate(SHADE):
+        p.rect(i, 0, i + 1, 1, shade)
+    for form in one(rows, "form"):
+        mine = [r for r in rows if r["form"] == form]
+        both = [r for r in mine if (num(r, "measured") or 0) >= 0.05 and (num(r, "theory") or 0) >= 0.05]
+        agree = sum(((num(r, "measured") or 0) >= GROWTH[0]) == ((num(r, "theory") or 0) >= GROWTH[0]) for r in mine)
+        worst = max((abs(num(r, "measured") / num(r, "theory") - 1) for r in both), default=None)
+        chart.note(f"{form}: stable or not as theory says in {agree} of {len(mine)}" +
+                   (f"; growth off theory by at most {100 * worst:.2g} % where it is 0.05 or more" if worst is not None else ""), 12)
+    return finish(chart, name, head)
+
+
+# ---- curves: theory as lines, measured as points ----
+
+def tension(name, head, rows):
+    chart = start(name, head, "Critical stretch against h")
+    extra = [c for c in ("seen", "powell") if c in rows[0]]
+    x = Axis([num(r, "h") for r in rows])
+    y = Axis([num(r, c) for r in rows for c in ["cholesky", "running"] + extra], True)
+
+    def draw(p, kernel):
+        mine = [r for r in rows if r["kernel"] == kernel]
+        h = [num(r, "h") for r in mine]
+        p.line(h, [num(r, "cholesky") for r in mine], 0, points=False)
+        for c, dash in zip(extra, ("(6,4)", "(2,4)")):
+            p.line(h, [num(r, c) for r in mine], 0, points=False, dash=dash, width=1, grey="#666666")
+        p.line(h, [num(r, "running") for r in mine], 0, lines=False, shape=6, size=1)
+
+    grid_of(chart, [(k, k.replace("_", " ")) for k in one(rows, "kernel")], draw, xlabel="h/dx", ylabel="critical stretch", x=x, y=y)
+    more = "".join(f"; {'dashed' if c == 'seen' else 'dotted'}: {c}" for c in extra)
+    chart.note(f"Line: by Cholesky; circles: by running the code{more}. No point: stable at every stretch that was tried.")
+    return finish(chart, name, head)
+
+
+def pairing(name, head, rows):
+    chart = start(name, head, "Compression: growth of pairs, and how near particles come")
+    x = Axis([num(r, "h") for r in rows])
+    keys = list(dict.fromkeys((r.get("lattice", ""), r["rho"]) for r in rows))
+    kernels = one(rows, "kernel")
+    for lattice, rho in keys:
+        for what, label, log in (("measured", "growth rate, c/dx", False), ("nearest", "nearest pair, dx", False)):
+            y = Axis([num(r, what) for r in rows] + [0], log, low=0)
+            p = chart.panel(260, "h/dx", label, x, y, title=f"{lattice.replace('_', ' ')} lattice, rho {rho}".strip(), right=120)
+            for i, kernel in enumerate(kernels):
+                mine = [r for r in rows if (r.get("lattice", ""), r["rho"], r["kernel"]) == (lattice, rho, kernel)]
+                h = [num(r, "h") for r in mine]
+                if what == "measured":
+                    p.line(h, [num(r, "theory") for r in mine], i, kernel.replace("_", " "), points=False)
+                    p.line(h, [num(r, "measured") for r in mine], i, lines=False)
+                else:
+                    p.line(h, [num(r, "nearest") for r in mine], i, kernel.replace("_", " "))
+    chart.note("Growth: lines are linear theory, points runs.")
+    return finish(chart, name, head)
+
+
+def repulsion(name, head, rows):
+    chart = start(name, head, "Tension with artificial stress: growth rate against epsilon")
+    x = Axis([num(r, "epsilon") for r in rows])
+    y = Axis([num(r, c) for r in rows for c in ("measured", "theory")] + [0], low=0)
+    keys = sorted({(num(r, "lambda"), num(r, "h")) for r in rows}, key=lambda k: (-k[0], k[1]))
+
+    def draw(p, key):
+        for i, n in enumerate(one(rows, "exponent")):
+            mine = [r for r in rows if (num(r, "lambda"), num(r, "h")) == key and r["exponent"] == n]
+            e = [num(r, "epsilon") for r in mine]
+            p.line(e, [num(r, "theory") for r in mine], i, f"n {n}", points=False)
+            p.line(e, [num(r, "measured") for r in mine], i, lines=False)
+
+    grid_of(chart, [(k, f"lambda {k[0]:g}, h {k[1]:g} dx") for k in keys], draw, xlabel="epsilon", ylabel="growth rate, c/dx", x=x, y=y, right=42)
+    chart.note("Lines are linear theory, points runs; n: exponent of the artificial stress.")
+    return finish(chart, name, head)
+
+
+# ---- tables of case, choice, x, figure, value, unit ----
+
+def figures(name, head, rows):
+    chart = start(name, head, name.replace("atlas_", "").replace("_", " ") + ": " + ", ".join(one(rows, "case")[:3]))
+    for case, figure in dict.fromkeys((r["case"], r["figure"]) for r in rows):
+        mine = [r for r in rows if (r["case"], r["figure"]) == (case, figure)]
+        values = [num(r, "value") for r in mine if num(r, "value") is not None]
+        unit = mine[0].get("unit", "")
+        label = figure + (f", {unit}" if unit and unit != "1" else "")
+        positive = [v for v in values if v > 0]
+        log = bool(positive) and len(positive) == len(values) and max(positive) > 30 * min(positive)
+        title = case.replace("_", " ")
+        if values and len({num(r, "x") for r in mine} - {None}) > 1:
+            curves(chart, mine, values, log, title, label)
+        else:
+            bars(chart, mine, values, log, title, label)
+    return finish(chart, name, head)
+
+
+def curves(chart, rows, values, log, title, label):
+    xs = [num(r, "x") for r in rows if num(r, "x") is not None]
+    wide = min(xs) > 0 and max(xs) > 30 * min(xs)
+    p = chart.panel(250, "x", label, Axis(xs, wide), Axis(values, log), title=title, right=150)
+    for i, choice in enumerate(one(rows, "choice")):
+        mine = [r for r in rows if r["choice"] == choice and num(r, "x") is not None]
+        p.line([num(r, "x") for r in mine], [num(r, "value") for r in mine], i, choice.replace("_", " "))
+
+
+def bars(chart, rows, values, log, title, label):
+    x = Axis(values or [0, 1], log, low=None if log else min(values + [0.0]), pad=0.12)
+    y = Axis([0, len(rows)], low=0, high=len(rows))
+    name = [r["choice"] + (f", {r['x']}" if r["x"] else "") for r in rows]
+    p = chart.panel(26 * len(rows) + 76, label, "", x, y, title=title, left=190, right=60,
+                    yticks=[(len(rows) - i - 0.5, plain(n.replace("_", " "))) for i, n in enumerate(name)])
+    for i, r in enumerate(rows):
+        v, at = num(r, "value"), len(rows) - i - 0.8
+        if v is not None and (not log or v > 0):
+            p.rect(x.low if log else 0, at, v, at + 0.6, "#aaaaaa")
+        p.text(min(max(x.at(v), 0), 1) if v is not None and (v > 0 or not log) else 0, y.at(at + 0.3), r["value"] or "none", 5, 0, "left", FONT - 2)
+
+
+def interpolation(name, head, rows):
+    chart = start(name, head, "Interpolation: error and cost against h/dx")
+    x = Axis([num(r, "h") for r in rows])
+    for case, figure in dict.fromkeys((r["case"], r["figure"]) for r in rows):
+        mine = [r for r in rows if (r["case"], r["figure"]) == (case, figure)]
+        values = [num(r, "value") for r in mine if num(r, "value") is not None]
+        log = min(values) >= 0 and max(values) > 0
+        p = chart.panel(300, "h/dx", figure, x, Axis(values, log), title=f"{case}: {figure}", right=120)
+        for i, kernel in enumerate(one(mine, "kernel")):
+            rs = [r for r in mine if r["kernel"] == kernel]
+            p.line([num(r, "h") for r in rs], [num(r, "value") for r in rs], i, kernel.replace("_", " "), size=0.6)
+    return finish(chart, name, head)
+
+
+TABLES = (("atlas_courant", courant), ("atlas_swegle", swegle), ("atlas_tension", tension), ("atlas_pairing", pairing),
+          ("atlas_repulsion", repulsion), ("atlas_water", figures), ("atlas_tank", figures), ("atlas_leak", figures),
+          ("atlas_precision", figures), ("interpolation", interpolation))
+
+
+def charts(folder):
+    for name, draw in TABLES:
+        got = tables.read(os.path.join(folder, name + ".csv"))
+        if got:
+            yield draw(name, *got)
+        else:
+            print(f"charts: {name} passed over: no {folder}/{name}.csv", file=sys.stderr)
