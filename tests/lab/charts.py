@@ -51,7 +51,7 @@ def front_chart(study):
     place = {r["row"]: i + 1 for i, r in enumerate(members)}
     for cost in costs:
         front_panel(chart, study, cost, letter, place)
-    keys = ", ".join(f"{k}: {name}" for name, k in letter.items())
+    keys = "; ".join(f"{k} {name}" for name, k in letter.items())
     chart.note(f"Lines, from coarse to fine: {keys}. Triangles: double. Small crosses: other h/dx.")
     chart.note("Thick line: Pareto front, no known run is as cheap and as good. Its members:")
     for r in members:
@@ -70,7 +70,7 @@ def front_panel(chart, study, cost, letter, place):
     front = good(study.front(cost))
     x, y = Axis([r[cost] for r in rows], True, pad=0.07), Axis([r["error"] for r in rows], True, pad=0.07)
     names = {"pairs": "pairs of particles looked at", "instructions": "instructions"}
-    p = chart.panel(420, names[cost] + ", whole run", error_label(study), x, y, right=44)
+    p = chart.panel(420, names[cost] + ", whole run", error_label(study), x, y, right=50)
     swept = [r for r in rows if r["sweep"] == "h"]
     p.line([r[cost] for r in swept], [r["error"] for r in swept], lines=False, shape=1, size=0.45, width=0.7, grey="#999999")
     for i, (label, k) in enumerate(letter.items()):
@@ -82,7 +82,7 @@ def front_panel(chart, study, cost, letter, place):
     taken = []
     for r in front:
         gx, gy = p.where(r[cost], r["error"])
-        px, py = gx * (WIDTH - 116), gy * 366
+        px, py = gx * (WIDTH - 122), gy * 366
         # of five places the first that is clear of the numbers before
         dx, dy = next((d for d in ((-11, -11), (11, 11), (-20, -20), (20, 20), (-11, -27))
                        if all(abs(px + d[0] - a) > 16 or abs(py + d[1] - b) > 12 for a, b in taken)), (-11, -11))
@@ -113,7 +113,7 @@ def precision_chart(study):
         values = [r[key] for r in every if r[key]]
         if not values:
             continue
-        p = chart.panel(height, study.resolution, what, x, Axis(values, key == "error", low=0 if key == "each" else None), right=110, xticks=ticks)
+        p = chart.panel(height, study.resolution, what, x, Axis(values, key == "error", low=0 if key == "each" else None), right=122, xticks=ticks)
         for i, (label, two) in enumerate(pairs.items()):
             for rows, name, shape, dash in ((two[0], "float", POINT[2 * i], "solid"), (two[1], "double", POINT[2 * i + 1], "(10,5)")):
                 p.line([r["n"] for r in rows], [r[key] for r in rows], i, f"{'ab'[i] + ', ' if len(pairs) > 1 else ''}{name}",
@@ -133,7 +133,7 @@ def h_chart(study):
     chart = Chart(f"{study.name}_h", f"{study.title}: error and cost against h/dx")
     x = Axis([r["x"] for r in rows])
     y = Axis([r["error"] for r in good(rows)], True, pad=0.08)
-    p = chart.panel(360, "h/dx", error_label(study), x, y, right=110)
+    p = chart.panel(360, "h/dx", error_label(study), x, y, right=122)
     broken = {}
     for i, label in enumerate(study.labels("h")):
         mine = [r for r in rows if r["label"] == label]
@@ -144,9 +144,9 @@ def h_chart(study):
                 broken.setdefault(r["x"], []).append(label)
     for at, labels in broken.items():
         p.text(x.at(at), 1, "x", 0, -6, "center", FONT, True)
-    q = chart.panel(260, "h/dx", "instructions, whole run", x, Axis([r["instructions"] for r in good(rows, "instructions")], True, pad=0.08), right=110) \
+    q = chart.panel(260, "h/dx", "instructions, whole run", x, Axis([r["instructions"] for r in good(rows, "instructions")], True, pad=0.08), right=122) \
         if good(rows, "instructions") else \
-        chart.panel(260, "h/dx", "pairs, whole run", x, Axis([r["pairs"] for r in good(rows, "pairs")], True, pad=0.08), right=110)
+        chart.panel(260, "h/dx", "pairs, whole run", x, Axis([r["pairs"] for r in good(rows, "pairs")], True, pad=0.08), right=122)
     cost = "instructions" if good(rows, "instructions") else "pairs"
     for i, label in enumerate(study.labels("h")):
         fine = [r for r in good(rows, cost) if r["label"] == label]

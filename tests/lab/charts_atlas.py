@@ -32,7 +32,7 @@ def finish(chart, name, head):
 def grid_of(chart, panels, draw, height=230, columns=2, **kw):
     """Small panels of the same axes, `columns` beside each other. draw(panel, key) fills one."""
     for i, (key, title) in enumerate(panels):
-        p = chart.panel(height, kw["xlabel"], kw["ylabel"], kw["x"], kw["y"], title=title, beside=i % columns > 0, left=66, right=kw.get("right", 10))
+        p = chart.panel(height, kw["xlabel"], kw["ylabel"], kw["x"], kw["y"], title=title, beside=i % columns > 0, left=82, right=kw.get("right", 10))
         draw(p, key)
 
 
@@ -44,7 +44,7 @@ def courant(name, head, rows):
     axis = Axis(values, True)
     integrators, media = one(rows, "integrator"), one(rows, "medium")
     for medium in media:
-        p = chart.panel(400, "linear theory, c dt/h", "measured, c dt/h", axis, axis, title=medium, right=190)
+        p = chart.panel(400, "linear theory, c dt/h", "measured, c dt/h", axis, axis, title=medium, right=200)
         p.segment(axis.low, axis.low, axis.high, axis.high, "(3,3)", "#777777")
         for i, integrator in enumerate(integrators):
             mine = [r for r in rows if r["medium"] == medium and r["integrator"] == integrator and num(r, "theory") and num(r, "measured")]
@@ -83,8 +83,8 @@ def swegle(name, head, rows):
                 i, k, v = volumes.index(num(r, "volume")), hs.index(num(r, "h")), num(r, what)
                 if v is None:
                     p.text(x.at(i + 0.5), y.at(k + 0.5), "?", anchor="center", size=FONT - 2)
-                else:
-                    p.rect(i, k, i + 1, k + 1, SHADE[sum(v >= g for g in GROWTH)])
+                elif v >= GROWTH[0]:
+                    p.rect(i, k, i + 1, k + 1, SHADE[sum(v >= g for g in GROWTH)], False)
     z, w = Axis([0, 6], low=0, high=6), Axis([0, 1], low=0, high=1)
     edges = ["below " + f"{GROWTH[0]:g}"] + [f"from {g:g}" for g in GROWTH]
     p = chart.panel(70, "growth rate, c/dx", "", z, w, left=66, right=66, xticks=[(i + 0.5, t) for i, t in enumerate(edges)], yticks=[(2, "")], grid=False)
@@ -130,7 +130,7 @@ def pairing(name, head, rows):
     for lattice, rho in keys:
         for what, label, log in (("measured", "growth rate, c/dx", False), ("nearest", "nearest pair, dx", False)):
             y = Axis([num(r, what) for r in rows] + [0], log, low=0)
-            p = chart.panel(260, "h/dx", label, x, y, title=f"{lattice.replace('_', ' ')} lattice, rho {rho}".strip(), right=120)
+            p = chart.panel(260, "h/dx", label, x, y, title=f"{lattice.replace('_', ' ')} lattice, rho {rho}".strip(), right=130)
             for i, kernel in enumerate(kernels):
                 mine = [r for r in rows if (r.get("lattice", ""), r["rho"], r["kernel"]) == (lattice, rho, kernel)]
                 h = [num(r, "h") for r in mine]
@@ -156,7 +156,7 @@ def repulsion(name, head, rows):
             p.line(e, [num(r, "theory") for r in mine], i, f"n {n}", points=False)
             p.line(e, [num(r, "measured") for r in mine], i, lines=False)
 
-    grid_of(chart, [(k, f"lambda {k[0]:g}, h {k[1]:g} dx") for k in keys], draw, xlabel="epsilon", ylabel="growth rate, c/dx", x=x, y=y, right=42)
+    grid_of(chart, [(k, f"lambda {k[0]:g}, h {k[1]:g} dx") for k in keys], draw, xlabel="epsilon", ylabel="growth rate, c/dx", x=x, y=y, right=52)
     chart.note("Lines are linear theory, points runs; n: exponent of the artificial stress.")
     return finish(chart, name, head)
 
@@ -203,13 +203,22 @@ def bars(chart, rows, values, log, title, label):
 
 
 def interpolation(name, head, rows):
-    chart = start(name, head, "Interpolation: error and cost against h/dx")
+    """a chart of every case"""
+    for case in one(rows, "case"):
+        yield interpolation_case(name, head, [r for r in rows if r["case"] == case])
+
+
+def interpolation_case(name, head, rows):
+    case = rows[0]["case"]
+    chart = Chart(f"{name}_{case}", f"{head.get('title', 'Interpolation: error and cost against h/dx')}, {case}")
     x = Axis([num(r, "h") for r in rows])
-    for case, figure in dict.fromkeys((r["case"], r["figure"]) for r in rows):
-        mine = [r for r in rows if (r["case"], r["figure"]) == (case, figure)]
+    for figure in one(rows, "figure"):
+        mine = [r for r in rows if r["figure"] == figure]
         values = [num(r, "value") for r in mine if num(r, "value") is not None]
+        if not values:
+            continue
         log = min(values) >= 0 and max(values) > 0
-        p = chart.panel(300, "h/dx", figure, x, Axis(values, log), title=f"{case}: {figure}", right=120)
+        p = chart.panel(300, "h/dx", figure, x, Axis(values, log), title=figure, right=130)
         for i, kernel in enumerate(one(mine, "kernel")):
             rs = [r for r in mine if r["kernel"] == kernel]
             p.line([num(r, "h") for r in rs], [num(r, "value") for r in rs], i, kernel.replace("_", " "), size=0.6)
@@ -225,6 +234,7 @@ def charts(folder):
     for name, draw in TABLES:
         got = tables.read(os.path.join(folder, name + ".csv"))
         if got:
-            yield draw(name, *got)
+            drawn = draw(name, *got)
+            yield from drawn if draw is interpolation else [drawn]
         else:
             print(f"charts: {name} passed over: no {folder}/{name}.csv", file=sys.stderr)

@@ -33,7 +33,7 @@ def plain(text):
 
 def wrap(text, pixels=WIDTH - 24, size=FONT):
     """Lines that fit, at about 0.55 em a letter."""
-    return textwrap.wrap(text, max(10, int(pixels / (0.55 * size))), break_on_hyphens=False)
+    return textwrap.wrap(text.replace(" %", "\u00a0%"), max(10, int(pixels / (0.55 * size))), break_on_hyphens=False)
 
 
 class Axis:
@@ -101,7 +101,8 @@ class Panel:
         how += f" pt {shape or POINT[style % len(POINT)]} ps {size}" if points else ""
         self.series.append((xy, how))
         if name:
-            self.names.append([self.y.at(xy[-1][1]), xy[-1], name])
+            point = f"point pt {shape or POINT[style % len(POINT)]} ps {min(size, 0.9)} lc rgb '{grey or GREY[style % len(GREY)]}'" if points else ""
+            self.names.append([self.y.at(xy[-1][1]), xy[-1], name, point])
 
     def where(self, x, y):
         """In axis coordinates, inside the frame."""
@@ -218,8 +219,11 @@ class Chart:
         frame = bottom - top
         names, arrows = sorted(p.names, key=lambda e: -e[0]), len(p.before)
         ys = spread([min(max(1 - e[0], -0.02), 1.02) * frame for e in names], LINE - 2, frame)
-        for k, ((_, (vx, vy), name), py) in enumerate(zip(names, ys)):
-            label((right + 14) / self.width, 1 - (top + py) / height, name, "left", FONT - 1, False, 0, "#000000")
+        for k, ((_, (vx, vy), name, point), py) in enumerate(zip(names, ys)):
+            label((right + (24 if point else 14)) / self.width, 1 - (top + py) / height, name, "left", FONT - 1, False, 0, "#000000")
+            if point:
+                n += 1
+                out.append(f"set label {n} '' at screen {(right + 16) / self.width:.6f}, {1 - (top + py) / height:.6f} {point} front")
             gx, gy = p.where(vx, vy)
             sx, sy = screen(gx, gy)
             out.append(f"set arrow {arrows + k + 1} from screen {sx:.6f}, {sy:.6f} to screen {(right + 11) / self.width:.6f}, "
@@ -242,9 +246,16 @@ class Chart:
                 if os.path.exists(base + ".tmp"):
                     os.remove(base + ".tmp")
                 sys.exit(f"charts: gnuplot could not make {base}{end}: {done.stderr.strip()}")
-            if end == ".png":
-                in_grey(base + ".tmp")
+            (in_grey if end == ".png" else without_blanks)(base + ".tmp")
             os.replace(base + ".tmp", base + end)
+
+
+def without_blanks(path):
+    """Leaves out the blank lines and indents that gnuplot puts into SVG."""
+    with open(path) as f:
+        lines = [line.strip() for line in f]
+    with open(path, "w") as f:
+        f.write("\n".join(line for line in lines if line) + "\n")
 
 
 def in_grey(path):
