@@ -80,7 +80,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
 .PHONY: targets travel refuse wasm browser
-.PHONY: size-gate slices baremetal
+.PHONY: size-gate slices baremetal charts
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -277,6 +277,10 @@ msan:
 knobs:
 	$(Q)BUILD=$(BUILD) CC="$(GCC)" BITS="$(BITS) -fexcess-precision=fast" SIZE="$(SIZE)" sh tests/knobs.sh
 
+# charts and page of the lab's tables (tests/lab), as they are committed: nothing is run
+charts:
+	$(Q)$(PYTHON) tests/lab/charts.py
+
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
 bench:
@@ -335,6 +339,7 @@ help:
 	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
 	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
 	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \
+	'make charts     charts and the page tests/lab/index.html from the tables of tests/lab (gnuplot)' \
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck and clang-tidy, those that are installed' \
 	'make clean      removes $(BUILD)' \

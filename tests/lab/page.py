@@ -51,6 +51,7 @@ a { color: #003a8c; } .small { color: #444; font-size: .88rem; }
 @media (max-width: 600px) {
   table.stack thead { display: none; } table.stack tr { display: block; border-bottom: 2px solid #777; padding: .5rem 0; }
   table.stack td { display: block; border: 0; padding: .1rem 0; } table.stack td::before { content: attr(data-name) ": "; color: #444; }
+  table.stack td:empty { display: none; }
   table.stack td:first-child { font-weight: bold; } table.stack td:first-child::before { content: ""; }
 }
 @media print { body { max-width: none; } h2 { break-before: page; } }

@@ -239,7 +239,7 @@ class Chart:
         heads = [(f"set terminal svg size {self.width},{height:.0f} fixed enhanced font 'sans-serif,{FONT}' background '#ffffff'", ".svg"),
                  (f"set terminal pngcairo size {self.width},{height:.0f} enhanced font 'DejaVu Sans,{FONT * 0.78:.1f}'", ".png")]
         for head, end in heads:
-            body = script if end == ".svg" else re.sub(r"font '(:Bold)?,(\d+)'", lambda m: f"font '{m[1] or ''},{int(m[2]) * 0.78:.1f}'", script)
+            body = script.replace("font ':Bold,", "font 'sans-serif:Bold,") if end == ".svg" else re.sub(r"font '(:Bold)?,(\d+)'", lambda m: f"font '{m[1] or ''},{int(m[2]) * 0.78:.1f}'", script)
             text = f"set output {quote(base + '.tmp')}\n" + body + "set output\n"
             done = subprocess.run(["gnuplot"], input=head + "\n" + text, text=True, stderr=subprocess.PIPE)
             if done.returncode or done.stderr.strip():
