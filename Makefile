@@ -80,7 +80,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
 .PHONY: targets travel refuse wasm browser
-.PHONY: size-gate slices baremetal charts
+.PHONY: size-gate slices baremetal lab lab-smoke charts
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -259,10 +259,13 @@ msan_flags := -fsanitize=memory -fsanitize-memory-track-origins
 sanitized = $(MAKE) --no-print-directory $(1) BUILD=$(BUILD)/$(2) CC="$(CLANG)" WARN="-Wall -Wno-pass-failed" \
 	OPT="-O1 -g -fno-omit-frame-pointer" CFLAGS="$($(2)_flags) -fno-sanitize-recover=all" LDFLAGS="$($(2)_flags)"
 TSAN_TESTS ?= $(BUILD)/tsan/tests/test_threads_1d $(BUILD)/tsan/tests/test_threads_2f $(BUILD)/tsan/tests/test_threads_3f
+# of each test the builds that are asked for, or all of its own where it has none of these
+ASAN_BUILDS ?= $(BUILDS)
+asan_bins := $(foreach t,$(TESTS),$(foreach b,$(or $(filter $(ASAN_BUILDS),$(call builds_of,$(t))),$(call builds_of,$(t))),$(BUILD)/asan/tests/$(t)_$(b)))
 asan:
 	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
-	$(Q)$(call sanitized,tests,asan)
-	$(Q)ASAN_OPTIONS=detect_leaks=0 sh tests/run.sh $(BUILD)/asan $(test_bins:$(BUILD)/%=$(BUILD)/asan/%)
+	$(Q)$(call sanitized,$(asan_bins),asan)
+	$(Q)ASAN_OPTIONS=detect_leaks=0 sh tests/run.sh $(BUILD)/asan $(asan_bins)
 tsan:
 	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
 	$(Q)$(call sanitized,$(TSAN_TESTS),tsan)
@@ -308,6 +311,23 @@ validate: all
 validate-water validate-solids: validate-%: all
 	$(Q)$(PYTHON) tests/validate_$*.py --tool $(BUILD)/sph
 
+# ---- the lab: accuracy against cost, and stability (tests/lab) ----
+
+# runs are made by a fast build (the bits are the same), instructions are counted in the usual one
+LAB_FLAGS ?= -O3 -march=native
+STUDIES ?=
+JOBS ?= 2
+lab: $(BUILD)/sph
+	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/lab OPT="$(LAB_FLAGS)" $(BUILD)/lab/sph $(BUILD)/lab/interpolation_1d $(BUILD)/lab/interpolation_2d
+	$(Q)$(PYTHON) tests/lab/run.py --jobs $(JOBS) --tool $(BUILD)/lab/sph --counter $(BUILD)/sph --studies "$(STUDIES)"
+	$(Q)$(if $(STUDIES),,sh tests/lab/interpolation.sh $(BUILD)/lab >tests/lab/interpolation.csv.tmp && mv tests/lab/interpolation.csv.tmp tests/lab/interpolation.csv)
+lab-smoke: $(BUILD)/sph $(BUILD)/interpolation_1d $(BUILD)/interpolation_2d
+	$(Q)$(PYTHON) tests/lab/run.py --smoke --jobs $(JOBS) --tool $(BUILD)/sph
+	$(Q)sh tests/lab/interpolation.sh $(BUILD) | diff - tests/lab/interpolation.csv && echo "lab-smoke: tests/lab/interpolation.csv is the same"
+$(BUILD)/interpolation_%: $(BUILD)/obj/%/tests/lab/interpolation.o $(BUILD)/libsph%.a
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
+
 coverage:
 	$(Q)BUILD=$(BUILD)/coverage GCC="$(GCC)" GCOV="$(GCOV)" MAKE="$(MAKE)" OUT=$(BUILD) sh tests/coverage.sh
 
@@ -336,6 +356,8 @@ help:
 	'make baremetal  a tank at a fixed rate and a dam break in 192 KiB, on the same -> $(BUILD)/baremetal.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
 	'make validate-water, make validate-solids  a part of them' \
+	'make lab        error against cost, STUDIES="a b" or all (an hour)        -> tests/lab/*.csv' \
+	'make lab-smoke  the coarse rows of it, against the committed tables' \
 	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
 	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
 	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \

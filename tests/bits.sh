@@ -30,7 +30,6 @@ ways() {
         for o in -O0 -O1 -O2 -O3; do echo "$c$o|$cc|$o|"; done
         echo "$c-O3-native|$cc|-O3|-march=native"
         echo "$c-O2-scalar|$cc|-O2|-DSPH_VECTOR_BYTES=0"
-        echo "$c-O2-16|$cc|-O2|-DSPH_VECTOR_BYTES=16"
         has avx2 && echo "$c-O2-32|$cc|-O2|-mavx2 -DSPH_VECTOR_BYTES=32"
         echo "$c-O2-no-fast-paths|$cc|-O2|-DSPH_WITH_FAST_PATHS=0"
     done

@@ -29,6 +29,7 @@ def interpolate(xs, ys, x):
 class Run:
     """One command of the tool, and its history as columns. With dump=picture its dumps are there too."""
     out = os.path.join("build", "validate")
+    stamp = ""  # what else than its command a run depends on
 
     def __init__(self, scene, **options):
         self.scene, self.options = scene, options
@@ -49,7 +50,7 @@ class Run:
     def go(self, tool, keep=False):
         """keep: a run that was finished before by the same command is not made again"""
         start, self.tool = time.time(), tool
-        line, note = " ".join(self.command(tool)), self.prefix() + ".done"
+        line, note = " ".join(self.command(tool)) + self.stamp, self.prefix() + ".done"
         kept = keep and os.path.exists(note) and open(note).read().splitlines()
         if kept and kept[0] == line:
             self.error = kept[1] if len(kept) > 1 else None

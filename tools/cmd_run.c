@@ -12,6 +12,7 @@
 
 #include "../port/posix.h"
 #include "build.h"
+#include "calibrate.h"
 #include "commands.h"
 #include "host.h"
 
@@ -29,6 +30,7 @@ static const char help[] =
     "                          standard output and nothing is written\n"
     "  dump=full|picture|none  what dumps hold; picture (position, velocity, density, pressure) unless given\n"
     "  restore=FILE            go on from a full dump of the same scene and parameters\n"
+    "  cost=FILE               write a table of what the run cost: steps, pairs, seconds\n"
     "  stage_log=FILE          a hash after every pass of every step, to find where two machines part\n"
     "  hash                    print nothing but the hash of the last state to standard output\n"
     "\n"
@@ -52,11 +54,11 @@ typedef struct run {
     uint64_t threads, steps, frames;
     double end, every;
     uint32_t dump;
-    const char *prefix, *out, *restore, *stage_name;
+    const char *prefix, *out, *restore, *stage_name, *cost;
 
     host_file history, stage;
     FILE *rows; /* null: no history */
-    uint64_t frame, first_step, limit_steps[SPH_LIMITS];
+    uint64_t frame, first_step, limit_steps[SPH_LIMITS], particle_steps, pairs;
     double first_time;
     uint64_t began, stepping, last_line; /* ns */
 } run;
@@ -71,7 +73,7 @@ static void interrupt(int signal)
 /* ---- arguments ---- */
 
 static const char *const option_names[] = {"precision", "threads", "end",     "steps",     "every", "frames",
-                                           "out",       "dump",    "restore", "stage_log", NULL};
+                                           "out",       "dump",    "restore", "stage_log", "cost", NULL};
 
 static int unknown_name(const run *r, const char *name)
 {
@@ -115,9 +117,10 @@ static int take_option(run *r, uint32_t option, const char *value)
         r->dump = fine ? (uint32_t)kind : DUMP_NONE;
         break;
     case 8: r->restore = value; break;
-    default: r->stage_name = value; break;
+    case 9: r->stage_name = value; break;
+    default: r->cost = value; break;
     }
-    if ((option == 6 || option == 8 || option == 9) && *value == '\0')
+    if ((option == 6 || option >= 8) && *value == '\0')
         return host_usage("%s= needs the name of a file", option_names[option]);
     return fine ? HOST_FINE : HOST_USAGE;
 }
@@ -328,6 +331,8 @@ static void report(const run *r, FILE *out)
     if (steps)
         fprintf(out, "speed          %.4g steps/s, %.4g particle-steps/s, %.2f s in %llu steps\n", rate,
                 rate * (o.fluid + o.wall + o.solid), s, (unsigned long long)steps);
+    fprintf(out, "pairs          %llu candidates looked at, %.4g a particle-step\n", (unsigned long long)r->pairs,
+            r->particle_steps ? (double)r->pairs / (double)r->particle_steps : 0);
     report_limits(r, out);
     fprintf(out, "arena          %zu bytes, %.1f a particle; at most %u in a cell\n", u.arena_used,
             (double)u.arena_used / u.max_particles, u.cell_particles);
@@ -341,6 +346,22 @@ static void report(const run *r, FILE *out)
     fprintf(out, "density        %.8g .. %.8g kg/m^3; mass %.10g kg; fastest %.6g m/s\n", o.min_density, o.max_density,
             o.mass, o.max_speed);
     fprintf(out, "hash           %016llx\n", (unsigned long long)r->b->hash(r->sim));
+}
+
+/* what the run cost up to its last good step, for charts (tests/lab); seconds are the only figures that change from run to run */
+static bool write_cost(const run *r)
+{
+    host_file f;
+    sph_step_info info;
+    if (!host_create(&f, r->cost))
+        return false;
+    r->b->info(r->sim, &info);
+    const double s = seconds(r->stepping), unit = calibrate();
+    fprintf(f.f, "name,value,unit\nparticles,%u,-\nsteps,%llu,-\nparticle_steps,%llu,-\npairs,%llu,-\ntime,%.10g,s\nend,%.10g,s\n",
+            r->b->count(r->sim), (unsigned long long)(info.step - r->first_step), (unsigned long long)r->particle_steps,
+            (unsigned long long)r->pairs, info.time, r->end);
+    fprintf(f.f, "seconds,%.6g,s\ncalibration,%.6g,s\ncalibrations,%.6g,-\n", s, unit, s / unit);
+    return host_finish(&f, true);
 }
 
 /* ---- the run ---- */
@@ -403,6 +424,8 @@ static int step_all(run *r)
         r->stepping += port_posix_clock(NULL) - before;
         r->b->info(r->sim, &info);
         r->limit_steps[info.limit]++;
+        r->particle_steps += r->b->count(r->sim);
+        r->pairs += info.pairs;
         progress(r, false);
         if (finished(r, &info) || info.time >= (double)(r->frame + 1) * r->every) {
             uint64_t reached = (uint64_t)floor(info.time / r->every * (1 + 1e-12));
@@ -444,6 +467,8 @@ static int run_scene(run *r)
     catch_interrupt();
     int code = step_all(r);
     report(r, r->out && !r->hash ? stdout : stderr);
+    if (r->cost && !write_cost(r))
+        code = HOST_NO;
     if (r->hash)
         printf("%016llx\n", (unsigned long long)r->b->hash(r->sim));
     return code;

@@ -27,8 +27,8 @@ def caption(chart, study, what):
     chart.note(f"Table tests/lab/{study.name}.csv, made by: {study.command}; options of each run are in it.")
 
 
-def error_label(study):
-    return f"error, {study.unit}"
+def error_label(study, short=False):
+    return f"error, {study.unit.split(' ')[0] if short else study.unit}"
 
 
 def good(rows, cost=None):
@@ -107,7 +107,7 @@ def precision_chart(study):
     every = [r for two in pairs.values() for rows in two for r in rows]
     x = Axis([r["n"] for r in every], True, pad=0.08)
     ticks = [(n, f"{n:g}") for n in sorted({r["n"] for r in every})]
-    for what, key, height in ((error_label(study), "error", 260), ("instructions a particle-step", "each", 220)):
+    for what, key, height in ((error_label(study, True), "error", 260), ("instructions a particle-step", "each", 220)):
         for r in every:
             r["each"] = r["instructions"] / r["particle_steps"] if r["instructions"] and r["particle_steps"] else None
         values = [r[key] for r in every if r[key]]
@@ -138,7 +138,7 @@ def h_chart(study):
     for i, label in enumerate(study.labels("h")):
         mine = [r for r in rows if r["label"] == label]
         fine = good(mine)
-        p.line([r["x"] for r in fine], [r["error"] for r in fine], i, label)
+        p.line([r["x"] for r in fine], [r["error"] for r in fine], i, label.replace("_", " "))
         for r in mine:
             if not r["good"]:
                 broken.setdefault(r["x"], []).append(label)
@@ -150,7 +150,7 @@ def h_chart(study):
     cost = "instructions" if good(rows, "instructions") else "pairs"
     for i, label in enumerate(study.labels("h")):
         fine = [r for r in good(rows, cost) if r["label"] == label]
-        q.line([r["x"] for r in fine], [r[cost] for r in fine], i, label)
+        q.line([r["x"] for r in fine], [r[cost] for r in fine], i, label.replace("_", " "))
     if broken:
         chart.note("x at the top: no figure, as the run blew up: " + "; ".join(f"h/dx {k:g} {', '.join(v)}" for k, v in broken.items()) + ".")
     least = min(good(rows), key=lambda r: r["error"])
@@ -190,8 +190,8 @@ def courant_chart(study, atlas):
         mine = sorted((r for r in rows if r["label"] == label), key=lambda r: r["x"])
         fine = good(mine)
         shown = [r for r in fine if r["error"] < 300 * least]
-        p = chart.panel(190, "" if i + 1 < len(bounds) else "Courant number c dt/h", error_label(study).split(" of ")[0], x,
-                        Axis([min(v, 300 * least) for v in ok], True, pad=0.15), title=label, right=16)
+        p = chart.panel(190, "" if i + 1 < len(bounds) else "Courant number c dt/h", error_label(study, True), x,
+                        Axis([min(v, 300 * least) for v in ok], True, pad=0.3), title=label, right=16)
         p.line([r["x"] for r in shown], [r["error"] for r in shown], i)
         broken = next((r for r in mine if not r["good"]), None)
         two = bounds[label]
@@ -206,7 +206,7 @@ def courant_chart(study, atlas):
         elif shown:
             chart_text(p, x, shown[-1]["x"], 0.9, f"stands all, to {mine[-1]['x']:g}")
         if len(shown) < len(fine):
-            chart_text(p, x, shown[-1]["x"] if shown else xs[0], 0.7, f"beyond: errors to {max(r['error'] for r in fine):.3g}")
+            chart_text(p, x, shown[-1]["x"] if shown else xs[0], 0.6, f"beyond: errors to {max(r['error'] for r in fine):.4g}", 0.3)
     chart.note("Time step fixed by hand. Thick upright: the first step that blew up. Dotted, grey band: largest stable step by linear theory "
                "(tests/lab/atlas_courant.csv: square lattice at no pressure, periodic, alpha 0.1; of the study's kernel and scheme where its "
                "options name them, else from the smallest to the largest)." if any(bounds.values()) else
@@ -216,10 +216,10 @@ def courant_chart(study, atlas):
     return chart
 
 
-def chart_text(p, x, value, gy, text):
-    """beside a value, on the side where there is room"""
+def chart_text(p, x, value, gy, text, turn=0.6):
+    """beside a value, on the side where there is room: left of it from a share `turn` of the panel on"""
     gx = x.at(value)
-    room = gx < 0.6
+    room = gx < turn
     p.text(min(max(gx, 0), 1), gy, text, 5 if room else -5, 0, "left" if room else "right", FONT - 1)
 
 
@@ -267,7 +267,7 @@ def stages_chart(folder):
             p.rect(at, low, at + v, low + 0.7, greys[k % len(greys)])
             if x.at(v) - x.at(0) > 0.011 * (len(s) + 2) * 1.2:
                 p.text(x.at(at + v / 2), y.at(low + 0.35), s, 0, 0, "center", FONT - 2)
-            elif v > 0:
+            elif x.at(v) > 0.02:
                 p.text(x.at(at + v / 2), y.at(low + 0.35), k + 1, 0, 0, "center", FONT - 4)
             at += v
     chart.note("In the order of the bars: " + ", ".join(f"{k + 1} {s}" for k, s in enumerate(order)) + ".")

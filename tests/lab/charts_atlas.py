@@ -218,7 +218,7 @@ def interpolation_case(name, head, rows):
         if not values:
             continue
         log = min(values) >= 0 and max(values) > 0
-        p = chart.panel(300, "h/dx", figure, x, Axis(values, log), title=figure, right=130)
+        p = chart.panel(280, "h/dx", figure.replace("_", " "), x, Axis(values, log), right=130)
         for i, kernel in enumerate(one(mine, "kernel")):
             rs = [r for r in mine if r["kernel"] == kernel]
             p.line([num(r, "h") for r in rs], [num(r, "value") for r in rs], i, kernel.replace("_", " "), size=0.6)

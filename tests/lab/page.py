@@ -91,7 +91,7 @@ def halving_words(study):
     front = study.front(cost)
     factor = tables.halving(front, cost)
     if factor:
-        return f"{factor:.2g} times the {cost}"
+        return f"{factor:.2g} times the {cost}, down to {figure(front[-1]['error'], study)}; beyond is not known"
     if front[0]["error"] < 2 * front[-1]["error"]:
         return "not known: no halving was reached"
     return "not known: fewer than three runs on the front"

@@ -65,12 +65,10 @@ class Axis:
             step = 10 ** math.floor(math.log10((self.high - self.low) / most))
             step *= next(k for k in (1, 2, 5, 10) if (self.high - self.low) / (k * step) <= most)
             return [(v * step, f"{v * step:.6g}") for v in range(math.ceil(self.low / step), math.floor(self.high / step) + 1)]
-        decades = math.log10(self.high / self.low)
-        kinds = (1, 2, 5) if decades < 2.5 else (1,)
-        step = max(1, math.ceil(decades / most))
-        found = self.decades(kinds, step)
-        if len(found) < 3:
-            found = self.decades((1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8), 1)
+        step = max(1, math.ceil(math.log10(self.high / self.low) / most))
+        found = self.decades((1,), step)
+        for kinds in ((1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9)):
+            found = self.decades(kinds, 1) if len(found) < 3 else found
         return [(v, f"{v:.6g}" if 1e-3 <= v < 1e4 else f"10^{{{e}}}" if k == 1 else f"{k:g} 10^{{{e}}}") for v, k, e in found]
 
     def decades(self, kinds, step):
@@ -155,7 +153,7 @@ class Chart:
         return rows
 
     def script(self):
-        titles = wrap(self.title, self.width - 24, 15)
+        titles = wrap(self.title, self.width - 24, 18)  # bold is wider
         top = 12 + 20 * len(titles)
         rows = self.rows()
         height = top + sum(max(p.height for p in r) for r in rows) + 8 + LINE * len(self.notes) + 8
