@@ -280,10 +280,6 @@ msan:
 knobs:
 	$(Q)BUILD=$(BUILD) CC="$(GCC)" BITS="$(BITS) -fexcess-precision=fast" SIZE="$(SIZE)" sh tests/knobs.sh
 
-# charts and page of the lab's tables (tests/lab), as they are committed: nothing is run
-charts:
-	$(Q)$(PYTHON) tests/lab/charts.py
-
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
 bench:
@@ -321,6 +317,9 @@ lab: $(BUILD)/sph
 	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/lab OPT="$(LAB_FLAGS)" $(BUILD)/lab/sph $(BUILD)/lab/interpolation_1d $(BUILD)/lab/interpolation_2d
 	$(Q)$(PYTHON) tests/lab/run.py --jobs $(JOBS) --tool $(BUILD)/lab/sph --counter $(BUILD)/sph --studies "$(STUDIES)"
 	$(Q)$(if $(STUDIES),,sh tests/lab/interpolation.sh $(BUILD)/lab >tests/lab/interpolation.csv.tmp && mv tests/lab/interpolation.csv.tmp tests/lab/interpolation.csv)
+# from the tables as they are: nothing is run
+charts:
+	$(Q)$(PYTHON) tests/lab/charts.py
 lab-smoke: $(BUILD)/sph $(BUILD)/interpolation_1d $(BUILD)/interpolation_2d
 	$(Q)$(PYTHON) tests/lab/run.py --smoke --jobs $(JOBS) --tool $(BUILD)/sph
 	$(Q)sh tests/lab/interpolation.sh $(BUILD) | diff - tests/lab/interpolation.csv && echo "lab-smoke: tests/lab/interpolation.csv is the same"
@@ -358,10 +357,10 @@ help:
 	'make validate-water, make validate-solids  a part of them' \
 	'make lab        error against cost, STUDIES="a b" or all (an hour)        -> tests/lab/*.csv' \
 	'make lab-smoke  the coarse rows of it, against the committed tables' \
+	'make charts     charts and a page of the tables (gnuplot)                 -> tests/lab/charts, tests/lab/index.html' \
 	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
 	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
 	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \
-	'make charts     charts and the page tests/lab/index.html from the tables of tests/lab (gnuplot)' \
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck and clang-tidy, those that are installed' \
 	'make clean      removes $(BUILD)' \
