@@ -82,7 +82,7 @@ def front_panel(chart, study, cost, letter, place):
     taken = []
     for r in front:
         gx, gy = p.where(r[cost], r["error"])
-        px, py = gx * (WIDTH - 122), gy * 366
+        px, py = gx * (WIDTH - 130), gy * 366
         # of five places the first that is clear of the numbers before
         dx, dy = next((d for d in ((-11, -11), (11, 11), (-20, -20), (20, 20), (-11, -27))
                        if all(abs(px + d[0] - a) > 16 or abs(py + d[1] - b) > 12 for a, b in taken)), (-11, -11))

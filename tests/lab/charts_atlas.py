@@ -75,7 +75,7 @@ def swegle(name, head, rows):
     yticks = [(i + 0.5, f"{h:g}") for i, h in enumerate(hs)]
     for form in one(rows, "form"):
         for beside, what in enumerate(("measured", "theory")):
-            p = chart.panel(44 + 62 + 18 * len(hs), "volume V/V0", "h/dx", x, y, title=f"{form}: {what}", beside=beside > 0, left=66, right=10,
+            p = chart.panel(44 + 62 + 18 * len(hs), "volume V/V0", "h/dx", x, y, title=f"{form.replace('_', ' ')}: {what}", beside=beside > 0, left=66, right=10,
                             xticks=xticks, yticks=yticks, grid=False)
             for r in rows:
                 if r["form"] != form:
@@ -87,7 +87,7 @@ def swegle(name, head, rows):
                     p.rect(i, k, i + 1, k + 1, SHADE[sum(v >= g for g in GROWTH)], False)
     z, w = Axis([0, 6], low=0, high=6), Axis([0, 1], low=0, high=1)
     edges = ["below " + f"{GROWTH[0]:g}"] + [f"from {g:g}" for g in GROWTH]
-    p = chart.panel(70, "growth rate, c/dx", "", z, w, left=66, right=66, xticks=[(i + 0.5, t) for i, t in enumerate(edges)], yticks=[(2, "")], grid=False)
+    p = chart.panel(70, "growth rate, c/dx", "", z, w, left=30, right=24, xticks=[(i + 0.5, t) for i, t in enumerate(edges)], yticks=[(2, "")], grid=False)
     for i, shade in enumerate(SHADE):
         p.rect(i, 0, i + 1, 1, shade)
     for form in one(rows, "form"):

@@ -49,6 +49,7 @@ code { font: .85em ui-monospace, monospace; overflow-wrap: anywhere; }
 th, td { text-align: left; vertical-align: top; padding: .35rem .6rem .35rem 0; border-bottom: 1px solid #bbb; }
 a { color: #003a8c; } .small { color: #444; font-size: .88rem; }
 @media (max-width: 600px) {
+  img { width: 100vw; max-width: 100vw; margin-left: -1rem; }
   table.stack thead { display: none; } table.stack tr { display: block; border-bottom: 2px solid #777; padding: .5rem 0; }
   table.stack td { display: block; border: 0; padding: .1rem 0; } table.stack td::before { content: attr(data-name) ": "; color: #444; }
   table.stack td:empty { display: none; }
@@ -119,6 +120,19 @@ def take_words(study):
     return "; ".join(f"<b>{html.escape(name)}</b> down to {figure(r['error'], study)}" for name, r in groups[-6:])
 
 
+def spans(some, every):
+    """1 to 1.3, 1.6: neighbours in `every` run together"""
+    groups = []
+    for x in sorted(every):
+        if x in some and groups and groups[-1][-1] is not None:
+            groups[-1].append(x)
+        elif x in some:
+            groups.append([x])
+        else:
+            groups.append([None])
+    return ", ".join(f"{g[0]:g} to {g[-1]:g}" if len(g) > 1 else f"{g[0]:g}" for g in groups if g[0] is not None)
+
+
 def h_words(study):
     said = []
     for label in study.labels("h"):
@@ -126,8 +140,8 @@ def h_words(study):
         if rows:
             best = min(rows, key=lambda r: r["error"])
             near = [r["x"] for r in rows if r["error"] <= 2 * best["error"]]
-            said.append(f"{html.escape(label)} is best at h/dx {best['x']:g} ({figure(best['error'], study)}) and within twice that from {min(near):g} to {max(near):g}"
-                        if len(near) > 1 else f"{html.escape(label)} is best at h/dx {best['x']:g} ({figure(best['error'], study)})")
+            more = f", within twice that at {spans(near, [r['x'] for r in rows])}" if len(near) > 1 else ""
+            said.append(f"{html.escape(label.replace('_', ' '))} is best at h/dx {best['x']:g} ({figure(best['error'], study)}{more})")
     return "; ".join(said)
 
 
@@ -135,7 +149,8 @@ def courant_words(study):
     said = []
     for label in study.labels("courant"):
         rows = sorted((r for r in study.sweep("courant") if r["label"] == label), key=lambda r: r["x"])
-        fine = [r for r in rows if r["good"]]
+        broken = next((r for r in rows if not r["good"]), None)
+        fine = [r for r in rows if r["good"] and (not broken or r["x"] < broken["x"])]
         if not fine:
             said.append(f"{html.escape(label)} stood none")
             continue
@@ -144,7 +159,6 @@ def courant_words(study):
             if r["error"] > 1.1 * fine[0]["error"]:
                 break
             kept = r
-        broken = next((r for r in rows if not r["good"]), None)
         said.append(f"{html.escape(label)} keeps its error up to {kept['x']:g}" + (f", blows up at {broken['x']:g}" if broken else f", stood all up to {rows[-1]['x']:g}"))
     return "; ".join(said)
 

@@ -7,7 +7,7 @@ version of gnuplot and, in PNG, of cairo.
 """
 import math, os, re, shutil, struct, subprocess, sys, textwrap, zlib
 
-WIDTH = 640
+WIDTH = 520
 FONT = 13           # pixels
 LINE = 17           # of text
 MISSING = "charts: no gnuplot, which draws them; as root: apt-get install -y --no-install-recommends gnuplot-nox"
@@ -32,8 +32,8 @@ def plain(text):
 
 
 def wrap(text, pixels=WIDTH - 24, size=FONT):
-    """Lines that fit, at about 0.55 em a letter."""
-    return textwrap.wrap(text.replace(" %", "\u00a0%"), max(10, int(pixels / (0.55 * size))), break_on_hyphens=False)
+    """Lines that fit, at about 0.57 em a letter."""
+    return textwrap.wrap(text.replace(" %", "\u00a0%"), max(10, int(pixels / (0.57 * size))), break_on_hyphens=False)
 
 
 class Axis:
@@ -82,7 +82,7 @@ class Axis:
 class Panel:
     """One pair of axes. Draw with line, points, mark, text, box; then the chart lays it out."""
 
-    def __init__(self, height, xlabel, ylabel, x, y, title="", right=12, left=72, xticks=None, yticks=None, grid=True):
+    def __init__(self, height, xlabel, ylabel, x, y, title="", right=12, left=80, xticks=None, yticks=None, grid=True):
         self.height, self.xlabel, self.ylabel, self.x, self.y, self.title = height, xlabel, ylabel, x, y, title
         self.left, self.right, self.grid = left, right, grid
         self.xticks, self.yticks = xticks or x.ticks(), yticks or y.ticks(max(3, int(height / 45)))
@@ -184,7 +184,7 @@ class Chart:
                f"set xrange [{p.x.low:.10g}:{p.x.high:.10g}]", f"set yrange [{p.y.low:.10g}:{p.y.high:.10g}]",
                "set xtics nomirror (" + ", ".join(f"{quote(t)} {v:.10g}" for v, t in p.xticks) + ")",
                "set ytics nomirror (" + ", ".join(f"{quote(t)} {v:.10g}" for v, t in p.yticks) + ")",
-               "set grid lc rgb '#cccccc' lw 0.6 dt solid" if p.grid else "unset grid",
+               "set grid lc rgb '#cccccc' lw 0.6 dt solid" if p.grid else "unset grid", f"set border {3 if p.grid else 15} lw 1",
                f"set xlabel {quote(p.xlabel)} noenhanced offset 0,0.2", "unset ylabel"]
         n = 0
 
@@ -244,14 +244,14 @@ class Chart:
                 if os.path.exists(base + ".tmp"):
                     os.remove(base + ".tmp")
                 sys.exit(f"charts: gnuplot could not make {base}{end}: {done.stderr.strip()}")
-            (in_grey if end == ".png" else without_blanks)(base + ".tmp")
+            (in_grey if end == ".png" else tidied)(base + ".tmp")
             os.replace(base + ".tmp", base + end)
 
 
-def without_blanks(path):
-    """Leaves out the blank lines and indents that gnuplot puts into SVG."""
+def tidied(path):
+    """An SVG without blank lines and indents, and with bold letters as SVG has them: gnuplot 5.4 makes them a family's name."""
     with open(path) as f:
-        lines = [line.strip() for line in f]
+        lines = [line.strip().replace('font-family="sans-serif:Bold"', 'font-family="sans-serif" font-weight="bold"') for line in f]
     with open(path, "w") as f:
         f.write("\n".join(line for line in lines if line) + "\n")
 
