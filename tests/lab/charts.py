@@ -96,14 +96,16 @@ def precision_chart(study):
     labels = study.labels("precision")
     pairs = {}
     for label in labels:
-        double = sorted(good(study.sweep("precision")), key=study.finer)
-        double = [r for r in double if r["label"] == label]
-        single = sorted((r for r in good(study.sweep("method")) if r["label"] == label and r["n"] in [d["n"] for d in double]), key=study.finer)
+        double, single = (sorted((r for r in good(study.sweep(sweep)) if r["label"] == label), key=study.finer)
+                          for sweep in ("precision", "method"))
+        both = {r["n"] for r in double} & {r["n"] for r in single}
+        double, single = ([r for r in rows if r["n"] in both] for rows in (double, single))
         if double and single:
             pairs[label] = (single, double)
     if not pairs:
         return None
     chart = Chart(f"{study.name}_precision", f"{study.title}: float beside double")
+    letter = [k + " " for k in letters()] if len(pairs) > 1 else [""]
     every = [r for two in pairs.values() for rows in two for r in rows]
     x = Axis([r["n"] for r in every], True, pad=0.08)
     ticks = [(n, f"{n:g}") for n in sorted({r["n"] for r in every})]
@@ -113,12 +115,13 @@ def precision_chart(study):
         values = [r[key] for r in every if r[key]]
         if not values:
             continue
-        p = chart.panel(height, study.resolution, what, x, Axis(values, key == "error", low=0 if key == "each" else None), right=122, xticks=ticks)
-        for i, (label, two) in enumerate(pairs.items()):
-            for rows, name, shape, dash in ((two[0], "float", POINT[2 * i], "solid"), (two[1], "double", POINT[2 * i + 1], "(10,5)")):
-                p.line([r["n"] for r in rows], [r[key] for r in rows], i, f"{'ab'[i] + ', ' if len(pairs) > 1 else ''}{name}",
-                       shape=shape, dash=dash, size=1.2 if name == "double" else 0.8)
-    keys = "; ".join((f"{'ab'[i]}: " if len(pairs) > 1 else "") + label for i, label in enumerate(pairs))
+        y = Axis(values, key == "error", low=0 if key == "each" else None)
+        p = chart.panel(height, study.resolution, what, x, y, right=122, xticks=ticks)
+        for i, (two, k) in enumerate(zip(pairs.values(), letter)):
+            for rows, name, shape, dash in ((two[0], "float", POINT[2 * i % 10], "solid"), (two[1], "double", POINT[2 * i % 10 + 1], "(10,5)")):
+                p.line([r["n"] for r in rows], [r[key] for r in rows], i, k + name, shape=shape, dash=dash,
+                       size=1.2 if name == "double" else 0.8)
+    keys = "; ".join(k + label for label, k in zip(pairs, letter))
     worst = max(abs(d["error"] / s["error"] - 1) for two in pairs.values() for s, d in zip(*two))
     caption(chart, study, f"Method: {keys}. Largest difference of the two errors: {100 * worst:.2g} % of the error.")
     return chart
@@ -144,15 +147,14 @@ def h_chart(study):
                 broken.setdefault(r["x"], []).append(label)
     for at, labels in broken.items():
         p.text(x.at(at), 1, "x", 0, -6, "center", FONT, True)
-    q = chart.panel(260, "h/dx", "instructions, whole run", x, Axis([r["instructions"] for r in good(rows, "instructions")], True, pad=0.08), right=122) \
-        if good(rows, "instructions") else \
-        chart.panel(260, "h/dx", "pairs, whole run", x, Axis([r["pairs"] for r in good(rows, "pairs")], True, pad=0.08), right=122)
     cost = "instructions" if good(rows, "instructions") else "pairs"
+    q = chart.panel(260, "h/dx", f"{cost}, whole run", x, Axis([r[cost] for r in good(rows, cost)], True, pad=0.08), right=122)
     for i, label in enumerate(study.labels("h")):
         fine = [r for r in good(rows, cost) if r["label"] == label]
         q.line([r["x"] for r in fine], [r[cost] for r in fine], i, label.replace("_", " "))
     if broken:
-        chart.note("x at the top: no figure, as the run blew up: " + "; ".join(f"h/dx {k:g} {', '.join(v)}" for k, v in broken.items()) + ".")
+        where = "; ".join(f"h/dx {k:g} {', '.join(v)}" for k, v in broken.items())
+        chart.note(f"x at the top: no figure, as the run blew up: {where}.")
     least = min(good(rows), key=lambda r: r["error"])
     caption(chart, study, f"All at {study.size} {least['n']:g}. Smallest error: {least['error']:.3g}, {least['label']}, h/dx {least['x']:g}.")
     return chart
@@ -160,13 +162,17 @@ def h_chart(study):
 
 # ---- error against the Courant number ----
 
+SOLIDS = ("pulse", "rings", "plate", "hole", "block", "stretch", "tension", "brittle", "chamber", "caldera")  # scenes of them
+
+
 def theory_of(study, rows, atlas):
     """Lowest and highest limit of the linear theory for a sweep: of its kernel and scheme where they are known, else of all."""
     if not atlas:
         return None
     given = {**study.defaults, **rows[0]["given"]}
-    solid = study.scene in ("pulse", "rings", "plate", "hole", "block", "stretch", "tension", "brittle", "chamber", "caldera")
-    found = [r for r in atlas if r["medium"] == ("elastic" if solid else "water") and r["integrator"] == given.get("integrator", "")]
+    solid = study.scene in SOLIDS
+    medium, integrator = "elastic" if solid else "water", given.get("integrator", "")
+    found = [r for r in atlas if r["medium"] == medium and r["integrator"] == integrator]
     scheme = given.get("form") if solid else given.get("scheme")
     for key, want in (("scheme", scheme), ("kernel", given.get("kernel"))):
         if want and any(r[key] == want for r in found):

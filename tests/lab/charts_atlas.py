@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 """charts_atlas.py: charts of the stability atlas (tests/lab/atlas_*.csv) and of the interpolation of fields (interpolation.csv)."""
-import os, sys
+import os, re, sys
 
 import tables
 from plot import Axis, Chart, FONT, plain
@@ -32,7 +32,8 @@ def finish(chart, name, head):
 def grid_of(chart, panels, draw, height=230, columns=2, **kw):
     """Small panels of the same axes, `columns` beside each other. draw(panel, key) fills one."""
     for i, (key, title) in enumerate(panels):
-        p = chart.panel(height, kw["xlabel"], kw["ylabel"], kw["x"], kw["y"], title=title, beside=i % columns > 0, left=82, right=kw.get("right", 10))
+        p = chart.panel(height, kw["xlabel"], kw["ylabel"], kw["x"], kw["y"], title=title, beside=i % columns > 0, left=82,
+                        right=kw.get("right", 10))
         draw(p, key)
 
 
@@ -47,18 +48,19 @@ def courant(name, head, rows):
         p = chart.panel(400, "linear theory, c dt/h", "measured, c dt/h", axis, axis, title=medium, right=200)
         p.segment(axis.low, axis.low, axis.high, axis.high, "(3,3)", "#777777")
         for i, integrator in enumerate(integrators):
-            mine = [r for r in rows if r["medium"] == medium and r["integrator"] == integrator and num(r, "theory") and num(r, "measured")]
-            mine.sort(key=lambda r: num(r, "theory"))
-            p.line([num(r, "theory") for r in mine], [num(r, "measured") for r in mine], i, integrator.replace("_", " "), lines=False, size=1)
+            mine = sorted((r for r in rows if (r["medium"], r["integrator"]) == (medium, integrator) and num(r, "theory")),
+                          key=lambda r: num(r, "theory"))
+            p.line([num(r, "theory") for r in mine], [num(r, "measured") for r in mine], i, integrator.replace("_", " "), lines=False)
     off = sorted((r for r in rows if num(r, "ratio")), key=lambda r: -abs(num(r, "ratio") - 1))
     share = sum(abs(num(r, "ratio") - 1) <= 0.05 for r in off)
     chart.note(f"{share} of {len(off)} cases within 5 % of the theory (dotted line: equal). Farthest off:")
     for r in off[:4]:
-        chart.note(f"{r['medium']} {r['scheme']}, {r['integrator'].replace('_', ' ')}, {r['kernel'].replace('_', ' ')}, h {r['h']} dx: "
-                   f"measured {r['measured']}, theory {r['theory']}", 12)
+        case = f"{r['medium']} {r['scheme']}, {r['integrator']}, {r['kernel']}, h {r['h']} dx".replace("_", " ")
+        chart.note(f"{case}: measured {r['measured']}, theory {r['theory']}", 12)
     for medium in media:
         for integrator in integrators:
-            mine = [num(r, "measured") for r in rows if r["medium"] == medium and r["integrator"] == integrator and num(r, "measured") is not None]
+            mine = [num(r, "measured") for r in rows if (r["medium"], r["integrator"]) == (medium, integrator)]
+            mine = [v for v in mine if v is not None]
             if mine:
                 chart.note(f"{medium}, {integrator.replace('_', ' ')}: {min(mine):.3g} to {max(mine):.3g}", 12)
     return finish(chart, name, head)
@@ -75,8 +77,8 @@ def swegle(name, head, rows):
     yticks = [(i + 0.5, f"{h:g}") for i, h in enumerate(hs)]
     for form in one(rows, "form"):
         for beside, what in enumerate(("measured", "theory")):
-            p = chart.panel(44 + 62 + 18 * len(hs), "volume V/V0", "h/dx", x, y, title=f"{form.replace('_', ' ')}: {what}", beside=beside > 0, left=66, right=10,
-                            xticks=xticks, yticks=yticks, grid=False)
+            p = chart.panel(106 + 18 * len(hs), "volume V/V0", "h/dx", x, y, title=f"{form.replace('_', ' ')}: {what}",
+                            beside=beside > 0, left=66, right=10, xticks=xticks, yticks=yticks, grid=False)
             for r in rows:
                 if r["form"] != form:
                     continue
@@ -87,7 +89,8 @@ def swegle(name, head, rows):
                     p.rect(i, k, i + 1, k + 1, SHADE[sum(v >= g for g in GROWTH)], False)
     z, w = Axis([0, 6], low=0, high=6), Axis([0, 1], low=0, high=1)
     edges = ["below " + f"{GROWTH[0]:g}"] + [f"from {g:g}" for g in GROWTH]
-    p = chart.panel(70, "growth rate, c/dx", "", z, w, left=30, right=24, xticks=[(i + 0.5, t) for i, t in enumerate(edges)], yticks=[(2, "")], grid=False)
+    p = chart.panel(70, "growth rate, c/dx", "", z, w, left=30, right=24, yticks=[(2, "")], grid=False,
+                    xticks=[(i + 0.5, t) for i, t in enumerate(edges)])
     for i, shade in enumerate(SHADE):
         p.rect(i, 0, i + 1, 1, shade)
     for form in one(rows, "form"):
@@ -156,7 +159,8 @@ def repulsion(name, head, rows):
             p.line(e, [num(r, "theory") for r in mine], i, f"n {n}", points=False)
             p.line(e, [num(r, "measured") for r in mine], i, lines=False)
 
-    grid_of(chart, [(k, f"lambda {k[0]:g}, h {k[1]:g} dx") for k in keys], draw, xlabel="epsilon", ylabel="growth rate, c/dx", x=x, y=y, right=52)
+    grid_of(chart, [(k, f"lambda {k[0]:g}, h {k[1]:g} dx") for k in keys], draw, xlabel="epsilon", ylabel="growth rate, c/dx",
+            x=x, y=y, right=52)
     chart.note("Lines are linear theory, points runs; n: exponent of the artificial stress.")
     return finish(chart, name, head)
 
@@ -164,42 +168,61 @@ def repulsion(name, head, rows):
 # ---- tables of case, choice, x, figure, value, unit ----
 
 def figures(name, head, rows):
-    chart = start(name, head, name.replace("atlas_", "").replace("_", " ") + ": " + ", ".join(one(rows, "case")[:3]))
+    """curves over x where a figure has three or more of them, else bars; figures that are 0 in all rows are only said"""
+    chart = start(name, head, name.replace("atlas_", "").replace("_", " "))
+    said = re.search(r"\bx: ([^;]+)", "; ".join(head[""]))
+    flat, bar = [], {}
+    for r in rows:  # what theory says of a growth rate stands beside it
+        if r["figure"] == "theory" and any(q["figure"] == "growth" and q["case"] == r["case"] for q in rows):
+            r["figure"], r["choice"] = "growth", "theory"
     for case, figure in dict.fromkeys((r["case"], r["figure"]) for r in rows):
         mine = [r for r in rows if (r["case"], r["figure"]) == (case, figure)]
-        values = [num(r, "value") for r in mine if num(r, "value") is not None]
-        unit = mine[0].get("unit", "")
-        label = figure + (f", {unit}" if unit and unit != "1" else "")
-        positive = [v for v in values if v > 0]
-        log = bool(positive) and len(positive) == len(values) and max(positive) > 30 * min(positive)
-        title = case.replace("_", " ")
-        if values and len({num(r, "x") for r in mine} - {None}) > 1:
-            curves(chart, mine, values, log, title, label)
+        if all(num(r, "value") == 0 for r in mine):
+            flat.append(f"{case} {figure}".replace("_", " "))
+        elif len({num(r, "x") for r in mine} - {None}) > 2:
+            curves(chart, mine, case.replace("_", " "), said.group(1) if said else "x")
         else:
-            bars(chart, mine, values, log, title, label)
+            bar.setdefault(figure, []).extend(mine)
+    for mine in bar.values():
+        bars(chart, mine, len(one(rows, "case")) > 1)
+    if flat:
+        chart.note("0 in all rows: " + ", ".join(flat) + ".")
     return finish(chart, name, head)
 
 
-def curves(chart, rows, values, log, title, label):
+def label_of(rows):
+    units = [u for u in one(rows, "unit") if u not in ("", "-", "1")]
+    figure = rows[0]["figure"].replace("_", " ")
+    return f"{figure}, {units[0]}" if len(units) == 1 and units[0] != figure else figure
+
+
+def axis_of(rows):
+    """logarithmic where all values are positive and span more than 30"""
+    values = [num(r, "value") for r in rows if num(r, "value") is not None] or [0, 1]
+    log = min(values) > 0 and max(values) > 30 * min(values)
+    return Axis(values if log else values + [0], log, pad=0.1)
+
+
+def curves(chart, rows, title, what):
     xs = [num(r, "x") for r in rows if num(r, "x") is not None]
     wide = min(xs) > 0 and max(xs) > 30 * min(xs)
-    p = chart.panel(250, "x", label, Axis(xs, wide), Axis(values, log), title=title, right=150)
+    p = chart.panel(250, what, label_of(rows), Axis(xs, wide), axis_of(rows), title=title, right=150)
     for i, choice in enumerate(one(rows, "choice")):
-        mine = [r for r in rows if r["choice"] == choice and num(r, "x") is not None]
-        p.line([num(r, "x") for r in mine], [num(r, "value") for r in mine], i, choice.replace("_", " "))
+        mine = sorted((r for r in rows if r["choice"] == choice and num(r, "x") is not None), key=lambda r: num(r, "x"))
+        p.line([num(r, "x") for r in mine], [num(r, "value") for r in mine], i, choice.replace("_", " "), lines=True, size=0.8)
 
 
-def bars(chart, rows, values, log, title, label):
-    x = Axis(values or [0, 1], log, low=None if log else min(values + [0.0]), pad=0.12)
-    y = Axis([0, len(rows)], low=0, high=len(rows))
-    name = [r["choice"] + (f", {r['x']}" if r["x"] else "") for r in rows]
-    p = chart.panel(26 * len(rows) + 76, label, "", x, y, title=title, left=190, right=60,
-                    yticks=[(len(rows) - i - 0.5, plain(n.replace("_", " "))) for i, n in enumerate(name)])
+def bars(chart, rows, several):
+    x, y = axis_of(rows), Axis([0, len(rows)], low=0, high=len(rows))
+    names = [(f"{r['case']}, " if several else "") + r["choice"] + (f", {r['x']}" if r["x"] else "") for r in rows]
+    p = chart.panel(24 * len(rows) + 76, label_of(rows), "", x, y, left=180, right=60,
+                    yticks=[(len(rows) - i - 0.5, plain(n.replace("_", " "))) for i, n in enumerate(names)])
     for i, r in enumerate(rows):
         v, at = num(r, "value"), len(rows) - i - 0.8
-        if v is not None and (not log or v > 0):
-            p.rect(x.low if log else 0, at, v, at + 0.6, "#aaaaaa")
-        p.text(min(max(x.at(v), 0), 1) if v is not None and (v > 0 or not log) else 0, y.at(at + 0.3), r["value"] or "none", 5, 0, "left", FONT - 2)
+        if v is not None:
+            p.rect(x.low if x.log else 0, at, v, at + 0.6, "#aaaaaa")
+        end = 0 if v is None else min(max(x.at(v), 0), 1)
+        p.text(end, y.at(at + 0.3), r["value"] or "none", 5, 0, "left", FONT - 2)
 
 
 def interpolation(name, head, rows):
@@ -225,15 +248,21 @@ def interpolation_case(name, head, rows):
     return finish(chart, name, head)
 
 
-TABLES = (("atlas_courant", courant), ("atlas_swegle", swegle), ("atlas_tension", tension), ("atlas_pairing", pairing),
-          ("atlas_repulsion", repulsion), ("atlas_water", figures), ("atlas_tank", figures), ("atlas_leak", figures),
-          ("atlas_precision", figures), ("interpolation", interpolation))
+FIGURES = "case choice x figure value unit"
+TABLES = (("atlas_courant", courant, "medium scheme integrator kernel h measured theory ratio"),
+          ("atlas_swegle", swegle, "form volume h measured theory"),
+          ("atlas_tension", tension, "kernel h cholesky running"),
+          ("atlas_pairing", pairing, "kernel h rho measured theory nearest"),
+          ("atlas_repulsion", repulsion, "epsilon exponent h lambda measured theory"),
+          ("atlas_water", figures, FIGURES), ("atlas_tank", figures, FIGURES), ("atlas_leak", figures, FIGURES),
+          ("atlas_precision", figures, FIGURES), ("interpolation", interpolation, "case kernel h figure value"))
 
 
 def charts(folder):
-    for name, draw in TABLES:
+    for name, draw, columns in TABLES:
         got = tables.read(os.path.join(folder, name + ".csv"))
         if got:
+            tables.need(name + ".csv", got[1], columns.split())
             drawn = draw(name, *got)
             yield from drawn if draw is interpolation else [drawn]
         else:

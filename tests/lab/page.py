@@ -28,20 +28,26 @@ KINDS = {
     "hole": "Stress at holes and notches",
 }
 ATLAS = (
-    ("atlas_courant", "How long a time step may be", "Largest stable Courant number of every integrator, scheme and smoothing kernel: runs against linear theory."),
-    ("atlas_swegle", "Where pushes grow", "Growth of a tiny push over volume strain and h/dx, in runs and by linear theory. White is stable."),
-    ("atlas_tension", "How far a chain can be stretched", "Critical stretch of thirty particles, by Cholesky and by running the code."),
+    ("atlas_courant", "How long a time step may be",
+     "Largest stable Courant number of every integrator, scheme and smoothing kernel: runs against linear theory."),
+    ("atlas_swegle", "Where pushes grow",
+     "Growth of a tiny push over volume strain and h/dx, in runs and by linear theory. White is stable."),
+    ("atlas_tension", "How far a chain can be stretched",
+     "Critical stretch of thirty particles, by Cholesky and by running the code."),
     ("atlas_pairing", "Pairing in compression", "Particles that come together in pairs where there are many neighbours."),
     ("atlas_repulsion", "What artificial stress does to tension", "Growth against its size epsilon, its exponent n and h."),
     ("atlas_water", "Water under negative pressure", "Voids and clumps, and what a floor, diffusion or a filter does about them."),
     ("atlas_tank", "A still tank for a long time", "Disorder by kind of wall."),
     ("atlas_leak", "Walls that leak", "Water thrown at a wall: what gets through, by kind of wall."),
     ("atlas_precision", "Float and double part", "When runs of the same scene in float and in double are no longer the same."),
-    ("interpolation", "Interpolation of fields", "Error of a constant and of a gradient, and pairs, against h/dx for every smoothing kernel."),
+    ("interpolation", "Interpolation of fields",
+     "Error of a constant and of a gradient, and pairs, against h/dx for every smoothing kernel."),
 )
 STYLE = """
-body { font: 1rem/1.5 system-ui, sans-serif; color: #111; background: #fff; margin: 0 auto; padding: 0 1rem 4rem; max-width: 46rem; }
-h1 { font-size: 1.6rem; line-height: 1.2; } h2 { font-size: 1.25rem; margin-top: 3rem; border-top: 2px solid #111; padding-top: .8rem; }
+body { font: 1rem/1.5 system-ui, sans-serif; color: #111; background: #fff; }
+body { margin: 0 auto; padding: 0 1rem 4rem; max-width: 46rem; }
+h1 { font-size: 1.6rem; line-height: 1.2; }
+h2 { font-size: 1.25rem; margin-top: 3rem; border-top: 2px solid #111; padding-top: .8rem; }
 h3 { font-size: 1rem; margin-top: 1.6rem; }
 img { display: block; width: 100%; max-width: 640px; height: auto; margin: 1rem 0; }
 code { font: .85em ui-monospace, monospace; overflow-wrap: anywhere; }
@@ -51,7 +57,8 @@ a { color: #003a8c; } .small { color: #444; font-size: .88rem; }
 @media (max-width: 600px) {
   img { width: 100vw; max-width: 100vw; margin-left: -1rem; }
   table.stack thead { display: none; } table.stack tr { display: block; border-bottom: 2px solid #777; padding: .5rem 0; }
-  table.stack td { display: block; border: 0; padding: .1rem 0; } table.stack td::before { content: attr(data-name) ": "; color: #444; }
+  table.stack td { display: block; border: 0; padding: .1rem 0; }
+  table.stack td::before { content: attr(data-name) ": "; color: #444; }
   table.stack td:empty { display: none; }
   table.stack td:first-child { font-weight: bold; } table.stack td:first-child::before { content: ""; }
 }
@@ -159,7 +166,8 @@ def courant_words(study):
             if r["error"] > 1.1 * fine[0]["error"]:
                 break
             kept = r
-        said.append(f"{html.escape(label)} keeps its error up to {kept['x']:g}" + (f", blows up at {broken['x']:g}" if broken else f", stood all up to {rows[-1]['x']:g}"))
+        end = f"blows up at {broken['x']:g}" if broken else f"stood all up to {rows[-1]['x']:g}"
+        said.append(f"{html.escape(label)} keeps its error up to {kept['x']:g}, {end}")
     return "; ".join(said)
 
 
@@ -187,7 +195,8 @@ def picture(charts, name, alt, up):
     with open(path) as f:
         size = re.search(r'width="(\d+)" height="(\d+)"', f.read(2000))
     w, h = size.groups() if size else ("640", "480")
-    return (f'<a href="{up}/{name}.svg"><img src="{up}/{name}.svg" width="{w}" height="{h}" loading="lazy" alt="{html.escape(alt, True)}"></a>\n')
+    place, alt = f"{up}/{name}.svg", html.escape(alt, True)
+    return f'<a href="{place}"><img src="{place}" width="{w}" height="{h}" loading="lazy" alt="{alt}"></a>\n'
 
 
 def row_of(cells, names):
@@ -196,43 +205,57 @@ def row_of(cells, names):
 
 def table_of(names, rows):
     head = "".join(f"<th>{html.escape(n)}</th>" for n in names)
-    return f'<div class="wide"><table class="stack"><thead><tr>{head}</tr></thead><tbody>\n{"".join(row_of(r, names) for r in rows)}</tbody></table></div>\n'
+    body = "".join(row_of(r, names) for r in rows)
+    return f'<div class="wide"><table class="stack"><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>\n'
 
 
 def kind(study):
     return KINDS.get(study.name, study.title)
 
 
+def run_words(study, r):
+    return f"{html.escape(study.name_of(r))}<br><code>{html.escape(study.run_line(r))}</code>"
+
+
+CHOICES = ("your scene", "choose this", "error", "cost", "best known", "half the error costs")
+
+
+def choice_words(study):
+    """What is chosen and the last four columns of CHOICES."""
+    take, best = chosen(study)
+    cost = cost_of(study)
+    same = "this one" if take is best else f"{figure(best['error'], study)} at {best[cost] / take[cost]:.2g} times the cost"
+    return take, (figure(take["error"], study), f"{count(take[cost])} {cost}", same, halving_words(study))
+
+
 def choices_table(found):
-    names = ("your scene", "choose this", "error", "cost", "best known", "half the error costs")
     rows = []
     for s in found:
-        take, best = chosen(s)
-        cost = cost_of(s)
-        same = "this one" if take is best else f"{figure(best['error'], s)} at {best[cost] / take[cost]:.2g} times the cost"
-        rows.append((f'<a href="#{s.name}">{html.escape(kind(s))}</a>', f"{html.escape(s.name_of(take))}<br><code>{html.escape(s.run_line(take))}</code>",
-                     figure(take["error"], s), f"{count(take[cost])} {cost}", same, halving_words(s)))
-    return table_of(names, rows)
+        take, words = choice_words(s)
+        rows.append((f'<a href="#{s.name}">{html.escape(kind(s))}</a>', run_words(s, take)) + words)
+    return table_of(CHOICES, rows)
 
 
 def section(s, charts, up):
     cost = cost_of(s)
     front = s.front(cost)
     rungs, beyond = ladder(s)
-    out = [f'<h2 id="{s.name}">{html.escape(kind(s))}</h2>\n<p class="small">{html.escape(s.title)}. Error: {html.escape(s.norm)}, in {html.escape(s.unit)}. '
-           f"Reference: {html.escape(s.reference)}. Resolution: {html.escape(s.resolution)}.</p>\n",
-           f"<p>From cheap to accurate, take {take_words(s)}. Half the error costs {halving_words(s)}"
-           f"{' (straight line through the front in logarithms)' if tables.halving(front, cost) else ''}.</p>\n"]
+    about = f"{s.title}. Error: {s.norm}, in {s.unit}. Reference: {s.reference}. Resolution: {s.resolution}."
+    out = [f'<h2 id="{s.name}">{html.escape(kind(s))}</h2>\n<p class="small">{html.escape(about)}</p>\n',
+           f"<p>From cheap to accurate, take {take_words(s)}. Half the error costs {halving_words(s)}.</p>\n"]
     rows, last = [], None
     for wanted, r in rungs:
         times = f"{r[cost] / last[cost]:.2g}" if last else ""
-        rows.append((figure(wanted, s), figure(r["error"], s), f"{html.escape(s.name_of(r))}<br><code>{html.escape(s.run_line(r))}</code>", f"{count(r[cost])} {cost}", times))
+        rows.append((figure(wanted, s), figure(r["error"], s), run_words(s, r), f"{count(r[cost])} {cost}", times))
         last = r
-    rows.append((figure(beyond, s), "not reached", f"best known: {figure(front[-1]['error'], s)}, {html.escape(s.name_of(front[-1]))}", f"{count(front[-1][cost])} {cost}", ""))
+    best = f"best known: {figure(front[-1]['error'], s)}, {html.escape(s.name_of(front[-1]))}"
+    rows.append((figure(beyond, s), "not reached", best, f"{count(front[-1][cost])} {cost}", ""))
     out.append(table_of(("at most", "measured", "cheapest run", "cost", "times the cost before"), rows))
-    out.append(picture(charts, s.name + "_front", f"{s.title}: error against cost of {len(s.labels('method'))} methods; the Pareto front goes from "
-                       f"{figure(front[0]['error'], s)} to {figure(front[-1]['error'], s)}", up))
-    for name, title, words in (("h", "Neighbours", h_words(s)), ("courant", "Time step", courant_words(s)), ("precision", "Float and double", precision_words(s))):
+    alt = (f"{s.title}: error against cost of {len(s.labels('method'))} methods; the Pareto front goes from "
+           f"{figure(front[0]['error'], s)} to {figure(front[-1]['error'], s)}")
+    out.append(picture(charts, s.name + "_front", alt, up))
+    for name, title, words in (("h", "Neighbours", h_words(s)), ("courant", "Time step", courant_words(s)),
+                               ("precision", "Float and double", precision_words(s))):
         if words:
             text = re.sub(r"<[^>]*>", "", html.unescape(words))
             out.append(f"<h3>{title}</h3>\n<p>{words}.</p>\n" + picture(charts, f"{s.name}_{name}", f"{s.title}: {text}", up))
@@ -245,35 +268,45 @@ def atlas_sections(charts, up):
     for name, title, text in ATLAS:
         mine = [n for n in names if n == name or n.startswith(name + "_")]
         if mine:
-            out.append(f'<h3 id="{name}">{title}</h3>\n<p>{text}</p>\n' + "".join(picture(charts, n, f"{title}. {text}", up) for n in mine))
+            out.append(f'<h3 id="{name}">{title}</h3>\n<p>{text}</p>\n')
+            out += [picture(charts, n, f"{title}. {text}", up) for n in mine]
     return "".join(out)
 
 
-INTRO = """<p>Which smoothing kernel, wall, integrator, resolution? Here every choice was run against a reference, its error measured and its
-cost counted. A choice is worth taking if no other known run is as cheap and as good: those are the Pareto front of a scene. Costs are
-instructions of the whole run, counted in the default build, and pairs of particles looked at: both repeat exactly.</p>
+INTRO = """<p>Which smoothing kernel, wall, integrator, resolution? Here every choice was run against a reference, its error measured
+and its cost counted. A choice is worth taking if no other known run is as cheap and as good: those are the Pareto front of a
+scene. Costs are instructions of the whole run, counted in the default build, and pairs of particles looked at: both repeat
+exactly.</p>
 <p><code>sph advise SCENE error=2%</code> answers from the same tables on the command line.</p>
 """
 
 
-def make(folder, charts):
-    found = [s for s in tables.studies(folder) if cost_of(s)]
+def in_order(folder):
     order = list(KINDS)
-    found.sort(key=lambda s: (order.index(s.name) if s.name in order else len(order), s.name))
+    return sorted((s for s in tables.studies(folder) if cost_of(s)),
+                  key=lambda s: (order.index(s.name) if s.name in order else len(order), s.name))
+
+
+def make(folder, charts):
+    found = in_order(folder)
     up = os.path.relpath(charts, folder).replace(os.sep, "/")
     atlas = atlas_sections(charts, up)
     stages = picture(charts, "stages", "Instructions of a particle-step by stage of the step, a bar each scene", up)
     body = ["<h1>sph: what accuracy costs</h1>\n", INTRO]
     if found:
-        body += ["<h2>Your scene: choose this</h2>\n<p>The cheapest run whose error is at most twice the smallest known one.</p>\n", choices_table(found)]
+        body += ["<h2>Your scene: choose this</h2>\n<p>The cheapest run whose error is at most twice the smallest "
+                 "known one. What half the error costs is a straight line through the Pareto front in logarithms.</p>\n",
+                 choices_table(found)]
     body += [section(s, charts, up) for s in found]
     if stages:
         body.append(f'<h2 id="stages">Where a step goes</h2>\n{stages}')
     if atlas:
         body.append(f'<h2 id="atlas">Where methods fail</h2>\n{atlas}')
-    body.append('<h2>How it is made</h2>\n<p>The tables are in <code>tests/lab</code>, made by <code>make lab</code> and <code>make atlas</code>; each row holds the '
-                "options of its run, each table the command that makes it. Charts and this page: <code>make charts</code>.</p>\n")
-    return ('<!DOCTYPE html>\n<html lang="en">\n<!-- SPDX-License-Identifier: MIT. Copyright the sph authors. Made by make charts. -->\n<head>\n<meta charset="utf-8">\n'
+    body.append("<h2>How it is made</h2>\n<p>The tables are in <code>tests/lab</code>, made by <code>make lab</code> and "
+                "<code>make atlas</code>; each row holds the options of its run, each table the command that makes it. Charts and "
+                "this page: <code>make charts</code>.</p>\n")
+    return ('<!DOCTYPE html>\n<html lang="en">\n<!-- SPDX-License-Identifier: MIT. Copyright the sph authors. '
+            'Made by make charts. -->\n<head>\n<meta charset="utf-8">\n'
             '<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>sph: what accuracy costs</title>\n'
             f"<style>{STYLE}</style>\n</head>\n<body>\n{''.join(body)}</body>\n</html>\n")
 
@@ -287,15 +320,10 @@ def write(folder, charts):
 
 
 def readme(folder):
-    found = [s for s in tables.studies(folder) if cost_of(s)]
-    order = list(KINDS)
-    found.sort(key=lambda s: (order.index(s.name) if s.name in order else len(order), s.name))
-    out = ["| your scene | choose this (`build/sph run ...`) | error | cost | best known | half the error costs |", "|---|---|---|---|---|---|"]
-    for s in found:
-        take, best = chosen(s)
-        cost = cost_of(s)
-        same = "this one" if take is best else f"{figure(best['error'], s)} at {best[cost] / take[cost]:.2g} times the cost"
-        out.append(f"| {kind(s)} | `{s.run_line(take)[8:]}` | {figure(take['error'], s)} | {count(take[cost])} {cost} | {same} | {halving_words(s)} |")
+    out = ["| " + " | ".join(CHOICES).replace("this", "this (`build/sph run ...`)") + " |", "|---|---|---|---|---|---|"]
+    for s in in_order(folder):
+        take, words = choice_words(s)
+        out.append(f"| {kind(s)} | `{s.run_line(take)[8:]}` | " + " | ".join(words) + " |")
     return "\n".join(out) + "\n"
 
 

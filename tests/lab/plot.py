@@ -99,8 +99,8 @@ class Panel:
         how += f" pt {shape or POINT[style % len(POINT)]} ps {size}" if points else ""
         self.series.append((xy, how))
         if name:
-            point = f"point pt {shape or POINT[style % len(POINT)]} ps {min(size, 0.9)} lc rgb '{grey or GREY[style % len(GREY)]}'" if points else ""
-            self.names.append([self.y.at(xy[-1][1]), xy[-1], name, point])
+            point = f"point pt {shape or POINT[style % len(POINT)]} ps {min(size, 0.9)} lc rgb '{grey or GREY[style % len(GREY)]}'"
+            self.names.append([self.y.at(xy[-1][1]), xy[-1], name, point if points else ""])
 
     def where(self, x, y):
         """In axis coordinates, inside the frame."""
@@ -237,7 +237,10 @@ class Chart:
         heads = [(f"set terminal svg size {self.width},{height:.0f} fixed enhanced font 'sans-serif,{FONT}' background '#ffffff'", ".svg"),
                  (f"set terminal pngcairo size {self.width},{height:.0f} enhanced font 'DejaVu Sans,{FONT * 0.78:.1f}'", ".png")]
         for head, end in heads:
-            body = script.replace("font ':Bold,", "font 'sans-serif:Bold,") if end == ".svg" else re.sub(r"font '(:Bold)?,(\d+)'", lambda m: f"font '{m[1] or ''},{int(m[2]) * 0.78:.1f}'", script)
+            if end == ".svg":
+                body = script.replace("font ':Bold,", "font 'sans-serif:Bold,")
+            else:  # cairo's sizes are points
+                body = re.sub(r"font '(:Bold)?,(\d+)'", lambda m: f"font '{m[1] or ''},{int(m[2]) * 0.78:.1f}'", script)
             text = f"set output {quote(base + '.tmp')}\n" + body + "set output\n"
             done = subprocess.run(["gnuplot"], input=head + "\n" + text, text=True, stderr=subprocess.PIPE)
             if done.returncode or done.stderr.strip():

@@ -40,6 +40,12 @@ def read(path):
     return head, rows
 
 
+def need(path, rows, columns):
+    missing = [c for c in columns if c not in rows[0]]
+    if missing:
+        raise SystemExit(f"charts: {path} has no column {', '.join(missing)}")
+
+
 class Study:
     """A table of runs. A row is good if it reached its end and has an error, controlled if step control chose its steps."""
 
@@ -95,7 +101,8 @@ def studies(folder):
     found = []
     for path in sorted(glob.glob(os.path.join(folder, "*.csv"))):
         head, rows = read(path)
-        if "study" in head and rows and all(k in rows[0] for k in NUMBERS + ("sweep", "label", "precision", "cause", "options")):
+        if "study" in head and "scene" in head:
+            need(path, rows, NUMBERS + ("sweep", "label", "precision", "cause", "options"))
             found.append(Study(head, rows, path))
     return found
 
