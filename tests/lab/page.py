@@ -55,7 +55,7 @@ code { font: .85em ui-monospace, monospace; overflow-wrap: anywhere; }
 th, td { text-align: left; vertical-align: top; padding: .35rem .6rem .35rem 0; border-bottom: 1px solid #bbb; }
 a { color: #003a8c; } .small { color: #444; font-size: .88rem; }
 @media (max-width: 600px) {
-  img { width: 100vw; max-width: 100vw; margin-left: -1rem; }
+  img { width: calc(100% + 2rem); max-width: none; margin-left: -1rem; }
   table.stack thead { display: none; } table.stack tr { display: block; border-bottom: 2px solid #777; padding: .5rem 0; }
   table.stack td { display: block; border: 0; padding: .1rem 0; }
   table.stack td::before { content: attr(data-name) ": "; color: #444; }
