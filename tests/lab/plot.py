@@ -177,7 +177,7 @@ class Chart:
     def place(self, p, x, y, width, height):
         """gnuplot's commands for a panel whose box starts at (x, y) and is `width` wide"""
         left, right = x + p.left, x + width - p.right
-        top, bottom = y + (26 if p.title else 8), y + p.height - (46 if p.xlabel else 24)
+        top, bottom = y + (26 if p.title else 8), y + p.height - (50 if p.xlabel else 24)
         out = [f"set lmargin at screen {left / self.width:.6f}", f"set rmargin at screen {right / self.width:.6f}",
                f"set bmargin at screen {1 - bottom / height:.6f}", f"set tmargin at screen {1 - top / height:.6f}",
                f"{'set' if p.x.log else 'unset'} logscale x", f"{'set' if p.y.log else 'unset'} logscale y",
@@ -185,7 +185,7 @@ class Chart:
                "set xtics nomirror (" + ", ".join(f"{quote(t)} {v:.10g}" for v, t in p.xticks) + ")",
                "set ytics nomirror (" + ", ".join(f"{quote(t)} {v:.10g}" for v, t in p.yticks) + ")",
                "set grid lc rgb '#cccccc' lw 0.6 dt solid" if p.grid else "unset grid", f"set border {3 if p.grid else 15} lw 1",
-               f"set xlabel {quote(p.xlabel)} noenhanced offset 0,0.2", "unset ylabel"]
+               f"set xlabel {quote(p.xlabel)} noenhanced offset 0,0.5", "unset ylabel"]
         n = 0
 
         def screen(gx, gy):
