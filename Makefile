@@ -80,7 +80,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
 .PHONY: targets travel refuse wasm browser
-.PHONY: size-gate slices baremetal lab lab-smoke
+.PHONY: size-gate slices baremetal lab lab-smoke charts
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -154,7 +154,7 @@ builds_test_scenes  := $(BUILDS)
 builds_test_shapes  := $(BUILDS)
 builds_test_contact := $(BUILDS)
 # of commands of the tool, linked with those that need no scene: one build
-TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile
+TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile test_advise
 $(foreach t,$(TOOL_TESTS),$(eval builds_$(t) := 2d))
 builds_test_solid   := $(BUILDS)
 builds_test_solid_forces := $(BUILDS)
@@ -317,6 +317,9 @@ lab: $(BUILD)/sph
 	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/lab OPT="$(LAB_FLAGS)" $(BUILD)/lab/sph $(BUILD)/lab/interpolation_1d $(BUILD)/lab/interpolation_2d
 	$(Q)$(PYTHON) tests/lab/run.py --jobs $(JOBS) --tool $(BUILD)/lab/sph --counter $(BUILD)/sph --studies "$(STUDIES)"
 	$(Q)$(if $(STUDIES),,sh tests/lab/interpolation.sh $(BUILD)/lab >tests/lab/interpolation.csv.tmp && mv tests/lab/interpolation.csv.tmp tests/lab/interpolation.csv)
+# from the tables as they are: nothing is run
+charts:
+	$(Q)$(PYTHON) tests/lab/charts.py
 lab-smoke: $(BUILD)/sph $(BUILD)/interpolation_1d $(BUILD)/interpolation_2d
 	$(Q)$(PYTHON) tests/lab/run.py --smoke --jobs $(JOBS) --tool $(BUILD)/sph
 	$(Q)sh tests/lab/interpolation.sh $(BUILD) | diff - tests/lab/interpolation.csv && echo "lab-smoke: tests/lab/interpolation.csv is the same"
@@ -354,6 +357,7 @@ help:
 	'make validate-water, make validate-solids  a part of them' \
 	'make lab        error against cost, STUDIES="a b" or all (an hour)        -> tests/lab/*.csv' \
 	'make lab-smoke  the coarse rows of it, against the committed tables' \
+	'make charts     charts and a page of the tables (gnuplot)                 -> tests/lab/charts, tests/lab/index.html' \
 	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
 	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
 	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \

@@ -19,5 +19,6 @@ int cmd_dispersion(int argc, char **argv);
 int cmd_profile(int argc, char **argv);
 int cmd_fragments(int argc, char **argv);
 int cmd_gradykipp(int argc, char **argv);
+int cmd_advise(int argc, char **argv);
 
 #endif

@@ -24,6 +24,7 @@ static const struct command {
     {"profile", "fields of a dump along a line or an ellipse", cmd_profile},
     {"fragments", "the pieces into which solids have broken", cmd_fragments},
     {"gradykipp", "sizes of fragments by Grady and Kipp's statistics", cmd_gradykipp},
+    {"advise", "the cheapest known way to a wanted error", cmd_advise},
 };
 #define COMMANDS (sizeof commands / sizeof *commands)
 

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* studies.h: the tables of tests/lab in memory: runs of a scene with their errors and costs.
+
+   A study is a CSV file with lines `# key: text` before its column names; those with `# study:` and `# scene:` are studies.
+   A cell may stand in double quotes. Numbers may be missing: a run that blew up has no error. */
+#ifndef STUDIES_H
+#define STUDIES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum {
+    STUDY_N,
+    STUDY_X,
+    STUDY_ERROR,
+    STUDY_STEPS,
+    STUDY_PARTICLE_STEPS,
+    STUDY_PAIRS,
+    STUDY_INSTRUCTIONS,
+    STUDY_ENDED,
+    STUDY_NUMBERS
+};
+
+typedef struct study_run {
+    const char *sweep, *label, *cause, *options;
+    double number[STUDY_NUMBERS]; /* negative: not given */
+    bool is_double;
+    unsigned long line; /* in the file */
+} study_run;
+
+typedef struct study {
+    char *file;
+    unsigned char *text;
+    const char *name, *title, *scene, *norm, *reference, *unit; /* "" where the file does not say */
+    study_run *run;
+    uint32_t runs;
+} study;
+
+typedef struct studies {
+    study *study;
+    uint32_t count;
+    char **scene; /* all scenes that the folder has studies of, in order of their names, each once */
+    uint32_t scenes;
+} studies;
+
+/* The studies of `scene` in a folder, in order of their files' names. False after a message: the folder or a file of this
+   scene cannot be read or is malformed. None at all is no error. */
+bool studies_open(studies *s, const char *folder, const char *scene);
+void studies_close(studies *s);
+
+#endif
