@@ -7,7 +7,8 @@
 enum { A = SCENE_COMMON, N2, N, DEEP, LENGTH, WIDTH, HEIGHT, GRAVITY, SOUND, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 1),
+    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI,
+                    1, 0, 1, SPH_KICK_DRIFT_KICK, 0.9, 1),
     {"a", "m", "length of the block (x)", 0.0572, 1e-4, 1e4, SCENE_NUMBER},
     {"n2", "-", "height of the block in a", 1, 0.1, 10, SCENE_NUMBER},
     {"n", "-", "particles along a", 20, 4, 500, SCENE_WHOLE},

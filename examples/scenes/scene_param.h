@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#define SCENE_COMMON_COUNT 22 /* parameters that every scene takes; they come first in its table */
+#define SCENE_COMMON_COUNT 23 /* parameters that every scene takes; they come first in its table */
 
 enum { SCENE_NUMBER, SCENE_WHOLE, SCENE_CHOICE };
 

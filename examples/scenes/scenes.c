@@ -57,6 +57,7 @@ sph_config scene_config(const double *p, double dx, double rho0, double sound_sp
     /* Wickramarachchi's limit with gravity is a Courant number too, and shall not bind before the one that is asked for */
     c.gravity_factor = c.cfl > c.gravity_factor ? c.cfl : c.gravity_factor;
     c.books = p[SCENE_BOOKS] != 0;
+    c.pressure_floor = p[SCENE_FLOOR] != 0;
     c.on_leave = SPH_REMOVE;
     c.on_cross = (uint32_t)p[SCENE_CROSS];
     return c;

@@ -17,7 +17,7 @@ enum {
     SOLID_PARAMS_DAMPED(kernel_, h_, alpha_, books_, integrator_, cfl_, form_, repulsion_, mu_, yield_, 1)
 #define SOLID_PARAMS_DAMPED(kernel_, h_, alpha_, books_, integrator_, cfl_, form_, repulsion_, mu_, yield_, damping_)  \
     SCENE_PARAMS_OF(kernel_, h_, SPH_LINEAR, SPH_ARTIFICIAL, alpha_, SPH_NO_DIFFUSION, SCENE_ADAMI, damping_, 0,       \
-                    books_, integrator_, cfl_),                                                                                \
+                    books_, integrator_, cfl_, 0),                                                                                \
     {"form", "-", "solid form: updated corrected total", (form_) - 1, 0, 2, SCENE_CHOICE},                             \
     {"repulsion", "-", "artificial stress: none principal components", repulsion_, 0, 2, SCENE_CHOICE},                \
     {"epsilon", "-", "factor of the artificial stress; 0: none", 0.3, 0, 10, SCENE_NUMBER},                            \

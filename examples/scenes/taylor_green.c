@@ -8,7 +8,8 @@
 enum { SIDE = SCENE_COMMON, SPEED, RE, N, JITTER, SEED, SOUND, DURATION, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_COMMON_PARAMS(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_MORRIS, 0, SPH_MOLTENI, SCENE_ADAMI, 1, 0, 0),
+    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2.5, SPH_TAIT, SPH_MORRIS, 0, SPH_MOLTENI, SCENE_ADAMI,
+                    1, 0, 0, SPH_KICK_DRIFT_KICK, 0.5, 0),
     {"side", "m", "side of the square", 1, 1e-4, 1e4, SCENE_NUMBER},
     {"speed", "m/s", "largest speed at the start", 1, 1e-6, 1e4, SCENE_NUMBER},
     {"re", "-", "Reynolds number speed side/nu, unless nu is given", 100, 1e-3, 1e9, SCENE_NUMBER},

@@ -56,7 +56,8 @@ class LabRun(Run):
             return float(next(r["value"] for r in csv.DictReader(f) if r["name"] == name))
 
 
-STAMP = {s.scene: digest("tests/golden.csv", f"examples/scenes/{s.scene}.c") for s in STUDIES}
+SHARED = ["examples/scenes/scenes.c", "examples/scenes/scene.h"]
+STAMP = {s.scene: digest("tests/golden.csv", f"examples/scenes/{s.scene}.c", *SHARED) for s in STUDIES}
 
 
 def rows_of(s):
@@ -76,8 +77,25 @@ def rows_of(s):
 
 
 def default_of(scene, name):
-    said = subprocess.run([TOOL, "list", scene], stdout=subprocess.PIPE, text=True, check=True).stdout
-    return float(re.search(rf"^{name} +(\S+)", said, re.M).group(1))
+    return float(choices_of(scene)[name])
+
+
+def choices_of(scene):
+    """Defaults of the scene's parameters, as `sph list` prints them."""
+    if scene not in CHOICES:
+        said = subprocess.run([TOOL, "list", scene], stdout=subprocess.PIPE, text=True, check=True).stdout
+        CHOICES[scene] = dict(re.findall(r"^(\w+) +(\S+)", said, re.M))
+    return CHOICES[scene]
+
+
+CHOICES = {}
+
+
+def defaults(study):
+    """The choices that a study's methods leave alone."""
+    own = choices_of(study.scene)
+    return " ".join(f"{k}={study.base.get(k, own[k])}" for k in ("form", "kernel", "h", "scheme", "integrator", "cfl", "alpha", "diffusion", "wall")
+                    if k in own and not (k in ("scheme", "diffusion", "wall") and "form" in own))
 
 
 # ---- instructions ----
@@ -148,7 +166,7 @@ def table(study, rows, counts):
     out = io.StringIO()
     out.write("# SPDX-License-Identifier: MIT. Copyright the sph authors.\n")
     for name, value in (("study", study.name), ("title", study.title), ("scene", study.scene), ("norm", study.norm), ("reference", study.reference),
-                        ("unit", study.unit), ("resolution", study.resolution), ("command", f"make lab STUDIES={study.name}")):
+                        ("unit", study.unit), ("resolution", study.resolution), ("defaults", defaults(study)), ("command", f"make lab STUDIES={study.name}")):
         out.write(f"# {name}: {value}\n")
     w = csv.writer(out, lineterminator="\n")
     w.writerow(COLUMNS)
