@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* test_atlas.c: single entries of the stability atlas (tests/lab): methods fail where theory says that they fail and hold where it
+   says that they hold, and what fails grows as fast as theory says. Every subject has a case that fails. */
+#include "testing.h"
+
+#include "tests/lab/atlas.h"
+#include "tests/lab/theory.h"
+#include "tools/dispersion.h"
+#include "tools/table.h"
+
+/* ---- steps ---- */
+
+static void steps_stand_as_long_as_theory_says(void **state)
+{
+    static const struct {
+        courant_case c;
+        uint32_t steps;
+        double within;
+    } list[] = {
+        {{false, SPH_STANDARD, SPH_KICK_DRIFT_KICK, SPH_WENDLAND_C2, 1.2}, 300, 0.01},
+        {{false, SPH_WEAK, SPH_LEAP_FROG, SPH_CUBIC, 1.2}, 300, 0.01},
+        {{false, SPH_STANDARD, SPH_PREDICTOR_CORRECTOR, SPH_WENDLAND_C2, 1.2}, 400, 0.04},
+        {{false, SPH_STANDARD, SPH_RUNGE_KUTTA, SPH_CUBIC, 1.2}, 400, 0.04},
+        {{false, COURANT_SUMMED, SPH_PREDICTOR_CORRECTOR, SPH_CUBIC, 1.2}, 300, 0.01},
+        {{true, SPH_UPDATED, SPH_KICK_DRIFT_KICK, SPH_CUBIC, 1.2}, 300, 0.01},
+        {{true, SPH_CORRECTED, SPH_PREDICTOR_CORRECTOR, SPH_CUBIC, 1.2}, 400, 0.04},
+        {{true, SPH_TOTAL, SPH_KICK_DRIFT_KICK, SPH_CUBIC, 1.2}, 300, 0.01},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        const double m = courant_measured(&list[i].c, list[i].steps, 0.01), t = courant_theory(&list[i].c);
+        print_message("atlas: %s, %s: Courant number %.3f, theory %.3f\n", atlas_integrators[list[i].c.integrator],
+                      atlas_kernels[list[i].c.kernel], m, t);
+        close_to(m / t, 1, list[i].within + 0.01); /* and what the bisection leaves */
+    }
+}
+
+/* an oscillator of frequency w: without viscosity what keeps one evaluation, and the midpoint rule, amplify it at any step, by
+   1 + (w dt)^4/4 and 1 + (w dt)^4/8; the others stand w dt = 2 */
+static void factors_are_those_of_an_oscillator(void **state)
+{
+    theory_step t = {.medium = THEORY_WATER, .integrator = SPH_KICK_DRIFT_KICK, .kernel = SPH_CUBIC, .n = 12, .h = 1.2};
+    const double limit = theory_limit(&t), w = 2 / limit, z = 0.15, dt = z / w, z4 = z * z * z * z;
+    (void)state;
+    close_to(theory_factor(&t, 0.9 * limit), 1, 1e-4);
+    assert_true(theory_factor(&t, 1.1 * limit) > 1.5);
+    t.integrator = SPH_PREDICTOR_CORRECTOR;
+    close_to((theory_factor(&t, dt) - 1) / (z4 / 4), 1, 0.1);
+    t.integrator = SPH_RUNGE_KUTTA;
+    close_to((theory_factor(&t, dt) - 1) / (z4 / 8), 1, 0.05);
+}
+
+/* ---- growth ---- */
+
+static growth_case square(uint32_t form, double h, double volume)
+{
+    return growth_sided((growth_case){.form = form, .kernel = SPH_CUBIC, .h = h, .mu = 0.22, .volume = volume, .exponent = 4}, 12);
+}
+
+static void theory_is_that_of_dispersion(void **state)
+{
+    static const double wave[][2] = {{0.3, 0.1}, {1, 2}, {3.1, 0}, {3.1, 3.1}, {2, 2.5}};
+    (void)state;
+    for (double volume = 0.9; volume < 1.11; volume += 0.05)
+        for (size_t i = 0; i < sizeof wave / sizeof *wave; i++) {
+            const theory_box b = {.form = SPH_UPDATED, .kernel = SPH_QUINTIC, .n = 12, .h = 1.3, .mu = 0.22, .volume = volume};
+            const elastic_state e = {.rho = 1, .c = 1, .mu = 0.22, .pressure = 1 - volume};
+            double v[2];
+            bool both;
+            wave_modes m;
+            theory_modes(&b, wave[i], v, &both);
+            lattice_waves(&e, SPH_QUINTIC, LATTICE_SQUARE, 1.3, 1, wave[i], &m);
+            assert_false(both);
+            close_to(v[0], -fmin(m.omega2[0], m.omega2[1]), 1e-12);
+            close_to(v[1], -fmax(m.omega2[0], m.omega2[1]), 1e-12);
+        }
+}
+
+/* with exact gradients long waves go as in a solid under pressure */
+static void corrected_long_waves_are_exact(void **state)
+{
+    (void)state;
+    for (uint32_t form = SPH_CORRECTED; form <= SPH_TOTAL; form++) {
+        const theory_box b = {.form = form, .kernel = SPH_CUBIC, .n = 12, .h = 1.3, .mu = 0.22, .volume = 1};
+        const double k[2] = {6e-4, 8e-4};
+        double v[2];
+        bool both;
+        theory_modes(&b, k, v, &both);
+        assert_false(both);
+        close_to(v[1] / -1e-6, 1 + 4 * 0.22 / 3, 1e-5);
+        close_to(v[0] / -1e-6, 0.22, 1e-5);
+    }
+}
+
+static void tension_breaks_all_but_the_total_form(void **state)
+{
+    static const struct {
+        uint32_t form;
+        double h, volume;
+        bool grows;
+    } list[] = {{SPH_UPDATED, 1.2, 1.1, true},    {SPH_UPDATED, 1.2, 1.025, true}, {SPH_UPDATED, 1.2, 0.9, false},
+                {SPH_UPDATED, 1, 0.9, true},      {SPH_UPDATED, 1.2, 1, false},    {SPH_CORRECTED, 1.2, 1.1, true},
+                {SPH_CORRECTED, 1.2, 0.9, false}, {SPH_TOTAL, 1.2, 1.1, false},    {SPH_TOTAL, 1.2, 0.9, false}};
+    (void)state;
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        const growth_case c = square(list[i].form, list[i].h, list[i].volume);
+        const double t = growth_theory(&c), m = growth_measured(&c, 250);
+        print_message("atlas: %s, h %.1f, V/V0 %.3f: grows by %.3f c0/dx, theory %.3f\n", atlas_forms[c.form], c.h, c.volume, m, t);
+        assert_int_equal(m > 0, list[i].grows);
+        assert_int_equal(t > 0, list[i].grows);
+        close_to(m, t, 0.05 * t);
+    }
+}
+
+static void repulsion_slows_or_stops_it(void **state)
+{
+    double last = 1;
+    (void)state;
+    for (double epsilon = 0; epsilon < 0.35; epsilon += 0.15) {
+        growth_case c = square(SPH_UPDATED, 1, 1.05);
+        c.epsilon = epsilon;
+        const double t = growth_theory(&c), m = growth_measured(&c, 250);
+        print_message("atlas: epsilon %.1f: grows by %.3f c0/dx, theory %.3f\n", epsilon, m, t);
+        close_to(m, t, 0.05 * t);
+        assert_true(m < 0.7 * last);
+        last = m;
+    }
+}
+
+/* many neighbours in compression: the cubic spline pairs, Wendland's function does not */
+static void wide_splines_pair(void **state)
+{
+    double mean[2];
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        growth_case c = {.form = SPH_UPDATED, .kernel = i ? SPH_WENDLAND_C2 : SPH_CUBIC, .lattice = SPH_LATTICE_SHIFTED_X, .h = 2, .volume = 1 / 1.05};
+        c = growth_sided(c, 12);
+        const double t = growth_theory(&c), m = growth_measured(&c, 250), nearest = growth_nearest(&c, 300, &mean[i]);
+        print_message("atlas: %s, h 2, compressed: grows by %.3f c0/dx, theory %.3f; nearest %.2f dx, mean %.2f\n",
+                      atlas_kernels[c.kernel], m, t, nearest, mean[i]);
+        close_to(m, t, 0.05 * t);
+        assert_int_equal(m > 0, i == 0);
+    }
+    assert_true(mean[0] < 0.5);
+    assert_true(mean[1] > 0.9);
+}
+
+/* ---- the chain ---- */
+
+static void chains_buckle_at_powells_stretch(void **state)
+{
+    table t;
+    (void)state;
+    assert_true(table_open(&t, "tests/refdata/powell_critical_tension.csv"));
+    for (uint32_t r = 0; r < t.rows; r++) {
+        const double want = table_at(&t, r, 1);
+        close_to(tension_powell(SPH_CUBIC, table_at(&t, r, 0), 30, 0.2), want, 2e-3 * want);
+    }
+    table_close(&t);
+    static const uint32_t kernel[] = {SPH_CUBIC, SPH_WENDLAND_C2};
+    for (int i = 0; i < 2; i++) {
+        const double end = 2000, seen = tension_cholesky(kernel[i], 1.2, 30, 0.2, TENSION_SEEN / end);
+        const double limit = tension_cholesky(kernel[i], 1.2, 30, 0.2, 0), ran = tension_running(kernel[i], 1.2, 30, 0.2, end, 0.01);
+        print_message("atlas: chain, %s: buckles at a stretch of %.5f, theory %.5f\n", atlas_kernels[kernel[i]], ran, limit);
+        close_to(ran, seen, 0.02 * seen);
+        close_to(seen, limit, 0.03 * limit);
+    }
+    assert_true(tension_running(SPH_HAT, 1.2, 30, 0.2, 500, 0.01) >= TENSION_NONE);
+    assert_true(tension_cholesky(SPH_HAT, 1.2, 30, 0.2, 0) >= TENSION_NONE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        subject(steps_stand_as_long_as_theory_says),
+        subject(factors_are_those_of_an_oscillator),
+        subject(theory_is_that_of_dispersion),
+        subject(corrected_long_waves_are_exact),
+        subject(tension_breaks_all_but_the_total_form),
+        subject(repulsion_slows_or_stops_it),
+        subject(wide_splines_pair),
+        subject(chains_buckle_at_powells_stretch),
+    };
+    return run_subjects("atlas", tests);
+}
