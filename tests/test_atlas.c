@@ -133,13 +133,13 @@ static void wide_splines_pair(void **state)
     double mean[2];
     (void)state;
     for (int i = 0; i < 2; i++) {
-        growth_case c = {.form = SPH_UPDATED, .kernel = i ? SPH_WENDLAND_C2 : SPH_CUBIC, .lattice = SPH_LATTICE_SHIFTED_X, .h = 2, .volume = 1 / 1.05};
+        growth_case c = {.form = SPH_UPDATED, .kernel = i ? SPH_WENDLAND_C2 : SPH_CUBIC, .lattice = SPH_LATTICE_SHIFTED_X, .h = 2, .volume = 1 / 1.1};
         c = growth_sided(c, 12);
-        const double t = growth_theory(&c), m = growth_measured(&c, 250), nearest = growth_nearest(&c, 300, &mean[i]);
+        const double t = growth_theory(&c), m = growth_measured(&c, 500), nearest = growth_nearest(&c, 600, &mean[i]);
         print_message("atlas: %s, h 2, compressed: grows by %.3f c0/dx, theory %.3f; nearest %.2f dx, mean %.2f\n",
                       atlas_kernels[c.kernel], m, t, nearest, mean[i]);
-        close_to(m, t, 0.05 * t);
-        assert_int_equal(m > 0, i == 0);
+        close_to(m, t, 0.05 * t + 0.001);
+        assert_true(i == 0 ? m > 0.04 : m < 0.02);
     }
     assert_true(mean[0] < 0.5);
     assert_true(mean[1] > 0.9);
@@ -169,6 +169,69 @@ static void chains_buckle_at_powells_stretch(void **state)
     assert_true(tension_cholesky(SPH_HAT, 1.2, 30, 0.2, 0) >= TENSION_NONE);
 }
 
+/* ---- water ---- */
+
+/* under tension water pairs whatever is done to its density; without tension it stays */
+static void water_in_tension_clumps(void **state)
+{
+    (void)state;
+    for (uint32_t choice = 0; choice < WATER_CHOICES; choice++) {
+        const water_case w = {.kernel = SPH_WENDLAND_C2, .h = 1.2, .density = 0.95, .choice = choice};
+        const double m = water_growth(&w, 250), t = water_theory(&w);
+        print_message("atlas: water in tension, choice %u: grows by %.3f c0/dx, theory of the plain form %.3f\n", choice, m, t);
+        if (choice == WATER_PLAIN || choice == WATER_WEAK)
+            close_to(m, t, 0.05 * t);
+        else if (choice == WATER_FLOOR || choice == WATER_DIRECT)
+            assert_true(m < 0.1 * t);
+        else
+            assert_true(m > 0.5 * t);
+    }
+}
+
+/* ---- walls ---- */
+
+static void walls_keep_a_tank_still_or_not(void **state)
+{
+    static const uint32_t early[] = {1000}, late[] = {1000, 10000};
+    const tank_case lj = {.wall = WALL_LJ, .alpha = 0.01}, mirror = {.wall = WALL_MIRROR, .alpha = 0.01};
+    const tank_case adami = {.wall = WALL_EXTRAPOLATED, .alpha = 0.01};
+    wall_tank t[2];
+    wall_end end;
+    (void)state;
+    assert_int_equal(wall_rest(&lj, early, 1, t, &end), 1);
+    assert_true(t[0].speed > 0.03 && t[0].moved > 0.2);
+    assert_int_equal(wall_rest(&mirror, early, 1, t, &end), 1);
+    assert_true(t[0].speed < 0.003 && t[0].moved < 0.01);
+    assert_int_equal(wall_rest(&adami, late, 2, t, &end), 2);
+    print_message("atlas: tank, Adami walls: moved by %.3f dx in 1000 steps, by %.3f in 10000\n", t[0].moved, t[1].moved);
+    assert_true(t[0].moved < 0.03 && t[1].moved > 0.2);
+}
+
+static void walls_leak_where_they_are_weak(void **state)
+{
+    (void)state;
+    assert_true(wall_throw(WALL_LJ, 1, 0, 0.3, false).crossed == 0);
+    assert_true(wall_throw(WALL_LJ, 0.1, 0, 2, false).crossed > 0.9);
+    assert_true(wall_throw(WALL_KERNEL, 1, 0, 0.3, false).crossed > 0.9);
+    assert_true(wall_throw(WALL_KERNEL, 10, 0, 0.1, false).crossed == 0);
+    const wall_leak back = wall_throw(WALL_KERNEL, 1, 0, 0.3, true), mirror = wall_throw(WALL_MIRROR, 0, 0, 2, false);
+    assert_true(back.crossed == 0 && back.put_back > 60 && !back.failed);
+    assert_true(mirror.crossed == 0);
+}
+
+/* ---- float and double ---- */
+
+static void float_and_double_part_where_it_is_unstable(void **state)
+{
+    const precision_pair a = precision_part(PAIR_TENSION, 600), b = precision_part(PAIR_BLOCK, 1500);
+    (void)state;
+    print_message("atlas: float and double, 1e-3 dx apart: in tension after %u steps, a block that rings never in %u\n", a.part[0][0], b.steps);
+    assert_true(a.part[0][0] > 100 && a.part[0][0] < 600);
+    assert_int_equal(b.steps, 1500);
+    assert_int_equal(b.part[0][0], 0);
+    assert_true(b.kinetic < 1e-4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +243,10 @@ int main(void)
         subject(repulsion_slows_or_stops_it),
         subject(wide_splines_pair),
         subject(chains_buckle_at_powells_stretch),
+        subject(water_in_tension_clumps),
+        subject(walls_keep_a_tank_still_or_not),
+        subject(walls_leak_where_they_are_weak),
+        subject(float_and_double_part_where_it_is_unstable),
     };
     return run_subjects("atlas", tests);
 }

@@ -8,7 +8,8 @@
 
 static const atlas_table tables[] = {
     {"courant", atlas_courant},     {"swegle", atlas_swegle}, {"tension", atlas_tension}, {"pairing", atlas_pairing},
-    {"repulsion", atlas_repulsion},
+    {"repulsion", atlas_repulsion}, {"water", atlas_water},   {"tank", atlas_tank},       {"leak", atlas_leak},
+    {"precision", atlas_precision},
 };
 enum { TABLES = sizeof tables / sizeof *tables };
 

@@ -38,7 +38,7 @@ typedef struct growth_case {
 } growth_case;
 double growth_measured(const growth_case *c, double end);
 double growth_theory(const growth_case *c);
-/* the smallest distance of two particles, dx, once noise of 1e-3 c0 has grown and come to rest; *mean: of each one's nearest */
+/* the smallest distance of two particles, dx, once noise of 1e-2 c0 has grown and come to rest; *mean: of each one's nearest */
 double growth_nearest(const growth_case *c, double end, double *mean);
 /* the same and an even side of the box that holds three cells of this support */
 growth_case growth_sided(growth_case c, uint32_t least);
@@ -49,5 +49,48 @@ enum { TENSION_NONE = 2 }; /* a stretch beyond all that were tried */
 double tension_cholesky(uint32_t kernel, double h, uint32_t count, double most, double rate);
 double tension_powell(uint32_t kernel, double h, uint32_t count, double most);
 double tension_running(uint32_t kernel, double h, uint32_t count, double most, double end, double precision);
+
+/* ---- water under negative pressure: see atlas_water.c ---- */
+enum { WATER_PLAIN, WATER_FLOOR, WATER_MOLTENI, WATER_SHEPARD, WATER_XSPH, WATER_WEAK, WATER_DIRECT, WATER_CHOICES };
+typedef struct water_case {
+    uint32_t kernel, choice;
+    double h, density;
+} water_case;
+double water_growth(const water_case *w, double end);
+double water_theory(const water_case *w);
+double water_nearest(const water_case *w, double end, double *hole);
+
+/* ---- walls: see atlas_walls.c ---- */
+enum { WALL_LJ, WALL_KERNEL, WALL_KOS, WALL_GHOST_FREE, WALL_GHOST_HELD, WALL_EXTRAPOLATED, WALL_MIRROR, WALL_CHOICES };
+extern const char *const wall_names[];
+typedef struct tank_case {
+    uint32_t wall, integrator, diffusion;
+    double alpha;
+} tank_case;
+typedef struct wall_tank {
+    double speed, moved, nearest, pressure;
+    uint32_t put_back, left;
+} wall_tank;
+typedef struct wall_end {
+    uint32_t step; /* the step that failed, 0: none */
+    int status;
+} wall_end;
+/* out[m]: the tank after at[m] steps, for so many as it got to */
+uint32_t wall_rest(const tank_case *k, const uint32_t *at, uint32_t marks, wall_tank *out, wall_end *end);
+typedef struct wall_leak {
+    double crossed; /* share */
+    uint32_t put_back;
+    bool failed;
+} wall_leak;
+wall_leak wall_throw(uint32_t choice, double strength, uint32_t layers, double speed, bool put_back);
+
+/* ---- float and double: see atlas_precision.c ---- */
+enum { PAIR_TANK, PAIR_DAM, PAIR_VORTEX, PAIR_BLOCK, PAIR_TENSION, PAIR_SCENES };
+typedef struct precision_pair {
+    uint32_t steps, part[2][2]; /* steps done; until the largest [0] and the mean [1] difference passed 1e-3 and 0.1 dx; 0: never */
+    double moved[2];            /* at the end: largest and mean difference, dx */
+    double kinetic, front;      /* largest difference of the kinetic energies over its largest value; of the fronts, dx */
+} precision_pair;
+precision_pair precision_part(uint32_t scene, uint32_t steps);
 
 #endif

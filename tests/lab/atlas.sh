@@ -5,7 +5,7 @@
 # usage: BUILD=build/fast sh tests/lab/atlas.sh [TABLE ...]
 set -eu
 out=tests/lab
-sum=$(cat sph/*.[ch] tools/dispersion.[ch] $out/atlas*.[ch] $out/box.[ch] $out/theory.[ch] | cksum)
+sum=$(cat sph/*.[ch] tools/dispersion.[ch] $out/atlas*.[ch] $out/box.[ch] $out/theory.[ch] $out/precision_run.[ch] | cksum)
 mkdir -p "$BUILD/atlas_made"
 list=
 for t in ${*:-$("$BUILD/atlas" list)}; do

@@ -55,10 +55,10 @@ double growth_nearest(const growth_case *c, double end, double *mean)
     box_solid b = solid_of(c);
     void *arena;
     uint32_t set;
-    b.alpha = 0.5;
+    b.alpha = 0.1;
     b.dt = 0.2;
     sph_sim *sim = box_make_solid(&b, &set, &arena);
-    box_noise(sim, set, 1e-3, 1, 3);
+    box_noise(sim, set, 1e-2, 1, 3);
     for (double t = 0; t < end && sph_step(sim) == SPH_OK; t += b.dt)
         ;
     const double nearest = box_nearest(sim, b.n, mean);
@@ -114,12 +114,12 @@ void atlas_repulsion(FILE *f)
 void atlas_pairing(FILE *f)
 {
     static const uint32_t kernel[] = {SPH_CUBIC, SPH_QUINTIC, SPH_GAUSSIAN, SPH_WENDLAND_C2, SPH_WENDLAND_C4};
-    static const double h[] = {1, 1.2, 1.4, 1.6, 1.8, 2, 2.25, 2.5}, rho[] = {1.05};
+    static const double h[] = {1, 1.2, 1.4, 1.6, 1.8, 2, 2.5}, rho[] = {1.1};
     static const char *const lattice[] = {"square", "shifted_x"};
     atlas_head(f, "pairing", "compression: growth rate of a push of 1e-10 c0, c0/dx, and how near particles come",
                "periodic, form updated with mu = 0 (water of p = c0^2 (rho - rho0)), rho: density over that at rest; neighbours: with itself\n"
-               "measured, theory: as table swegle; nearest: smallest distance of two particles, dx, 300 dx/c0 after noise of 1e-3 c0 with\n"
-               "alpha 0.5; nearest_mean: mean over the particles of the distance to the nearest (1 on the square lattice, 1.075 on a hexagonal one)",
+               "measured, theory: as table swegle; nearest: smallest distance of two particles, dx, 600 dx/c0 after noise of 1e-2 c0 with\n"
+               "alpha 0.1; nearest_mean: mean over the particles of the distance to the nearest (1 on the square lattice, 1.075 on a hexagonal one)",
                "kernel,h,neighbours,rho,measured,theory,nearest,nearest_mean,lattice");
     for (uint32_t l = 0; l < 2; l++)
         for (size_t k = 0; k < sizeof kernel / sizeof *kernel; k++)
@@ -128,7 +128,7 @@ void atlas_pairing(FILE *f)
                     const growth_case c = growth_sided((growth_case){.form = SPH_UPDATED, .kernel = kernel[k], .lattice = l, .h = h[j],
                                                                      .volume = 1 / rho[r]}, 12);
                     double mean;
-                    const double nearest = growth_nearest(&c, 300, &mean);
+                    const double nearest = growth_nearest(&c, 600, &mean);
                     fprintf(f, "%s,%.3g,%u,%.3g,%.3f,%.3f,%.2f,%.2f,%s\n", atlas_kernels[c.kernel], c.h,
                             box_neighbours(c.kernel, l, c.h), rho[r], growth_measured(&c, END), growth_theory(&c), nearest, mean, lattice[l]);
                     fflush(f);
