@@ -4,8 +4,12 @@
 
    Swegle test: one particle of a lattice at rest is pushed at 1e-10 c0, nothing is viscous, kick-drift-kick with c0 dt = 0.2 dx.
    The rate is the slope of the logarithm of the speed over the last third of a run of 400 dx/c0, or of one that ends when it
-   has grown by 1e7; below 0.01 c0/dx it counts as none, as it does in theory: then the particle's push spreads, and moves
-   nothing further. Powell holds the particles around still; here the box is periodic, which linear theory covers exactly. */
+   is 1e-3 c0; below 0.01 c0/dx it counts as none, as it does in theory: then the particle's push spreads, and moves
+   nothing further. Powell holds the particles around still; here the box is periodic, which linear theory covers exactly.
+
+   With artificial stress the push is 1e-7 c0: principal axes are not followed where the principal stresses differ by less than
+   1e-9 K (tensile_part in sph/sweep.c), and with pushes of 1e-10 c0 slow waves do not grow. At V/V0 = 1 it has no linear theory: it
+   acts on the tension of a wave but not on its pressure. Runs show that at some h it feeds waves there (table swegle). */
 #include "atlas.h"
 
 #include <stdlib.h>
@@ -16,6 +20,7 @@
 
 #define LEAST 0.01
 #define END 400
+#define PUSH_REPULSION 1e-7
 
 growth_case growth_sided(growth_case c, uint32_t least)
 {
@@ -36,7 +41,7 @@ double growth_measured(const growth_case *c, double end)
     void *arena;
     uint32_t set;
     sph_sim *sim = box_make_solid(&b, &set, &arena);
-    box_push(sim, set, b.n, 1e-10, 1);
+    box_push(sim, set, b.n, c->epsilon > 0 ? PUSH_REPULSION : 1e-10, 1);
     const double rate = box_growth(sim, b.dt, end, LEAST);
     free(arena);
     return rate;
@@ -77,7 +82,7 @@ void atlas_swegle(FILE *f)
     } form[] = {{"updated", SPH_UPDATED, 0}, {"repulsion", SPH_UPDATED, 0.3}, {"corrected", SPH_CORRECTED, 0}, {"total", SPH_TOTAL, 0}};
     atlas_head(f, "swegle", "Swegle test: growth rate of a push of 1e-10 c0, c0/dx",
                "square lattice, periodic, cubic spline, mu = 0.22 K, volume strain V/V0 (above 1: tension); repulsion: updated with\n"
-               "artificial stress 0.3, n = 4; measured: fit over runs of 400 dx/c0; theory: the fastest wave of the box (theory.c); 0: below 0.01",
+               "artificial stress 0.3, n = 4, pushed with 1e-7 c0; measured: fit over runs of 400 dx/c0; theory: the fastest wave of the box (theory.c); 0: below 0.01",
                "form,volume,h,measured,theory");
     for (size_t i = 0; i < sizeof form / sizeof *form; i++)
         for (size_t k = 0; k < sizeof h / sizeof *h; k++)
@@ -94,7 +99,7 @@ void atlas_repulsion(FILE *f)
     static const double epsilon[] = {0, 0.1, 0.2, 0.3, 0.4, 0.6, 1}, h[] = {1, 1.2, 1.5};
     static const uint32_t exponent[] = {2, 4, 6};
     static const double lambda[] = {0.9, 0.97};
-    atlas_head(f, "repulsion", "tension with artificial stress: growth rate of a push of 1e-10 c0, c0/dx",
+    atlas_head(f, "repulsion", "tension with artificial stress: growth rate of a push of 1e-7 c0, c0/dx",
                "as table swegle, form updated; lambda: rest density 1/lambda times the density (Gray 2001 eq 5.78), so V/V0 = 1/lambda\n"
                "0: below 0.01; epsilon 0: no artificial stress",
                "epsilon,exponent,h,lambda,measured,theory");

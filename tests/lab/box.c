@@ -167,7 +167,6 @@ double box_growth(sph_sim *sim, double dt, double end, double least)
     enum { MOST = 4096 };
     double log_v[MOST];
     const uint32_t steps = (uint32_t)(end / dt + 0.5), every = (steps + MOST - 1) / MOST;
-    const double first = box_speed(sim);
     uint32_t n = 0;
     for (uint32_t s = 0; s < steps; s++) {
         if (sph_step(sim) != SPH_OK)
@@ -175,7 +174,7 @@ double box_growth(sph_sim *sim, double dt, double end, double least)
         if ((s + 1) % every == 0 && n < MOST) {
             const double v = box_speed(sim);
             log_v[n++] = v > 0 ? log(v) : -700;
-            if (v > 1e7 * first)
+            if (v > 1e-3)
                 break;
         }
     }

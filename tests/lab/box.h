@@ -39,8 +39,8 @@ double box_nearest(const sph_sim *sim, double n, double *mean);
 #define box_neighbours SPH_NAME(box_neighbours)
 uint32_t box_neighbours(uint32_t kernel, uint32_t lattice, double h);
 
-/* growth rate of the speed: slope of its logarithm over the last third of the run up to time `end` or until it has grown by
-   1e7; 0 if below `least` or if the last quarter brought none */
+/* growth rate of the speed: slope of its logarithm over the last third of the run up to time `end` or until it is
+   1e-3 c0; 0 if below `least` or if the last quarter brought none */
 #define box_growth SPH_NAME(box_growth)
 double box_growth(sph_sim *sim, double dt, double end, double least);
 /* the largest speed in the last quarter of the steps over that in the second; infinite if a step fails or it grows 1e4-fold */
