@@ -162,9 +162,10 @@ builds_test_solid_motion := $(BUILDS)
 builds_test_damage  := 2f 2d 3f 3d
 builds_of = $(or $(builds_$(1)),2f 2d)
 # the stability atlas (tests/lab): one program of parts from several builds
-atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,1d/tests/lab/atlas_tension 1d/tests/lab/box $(patsubst %,2d/tests/lab/%,atlas_courant atlas_swegle atlas_water box theory precision_run) \
-	$(patsubst %,2f/tests/lab/%,atlas_walls box precision_run) tests/lab/atlas_precision \
-	tests/lab/atlas_names tools/dispersion)
+atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension box) \
+	$(patsubst %,2d/tests/lab/%,atlas_courant atlas_swegle atlas_water box theory precision_run) \
+	$(patsubst %,2f/tests/lab/%,atlas_walls box precision_run) $(patsubst %,tests/lab/%,atlas_names atlas_precision) \
+	tools/dispersion)
 atlas_libs := $(BUILD)/libsph1d.a $(BUILD)/libsph2f.a
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_atlas.c: single entries of the stability atlas (tests/lab): methods fail where theory says that they fail and hold where it
-   says that they hold, and what fails grows as fast as theory says. Every subject has a case that fails. */
+/* test_atlas.c: single entries of the stability atlas (tests/lab): methods fail where theory says that they fail and hold
+   where it says that they hold, and what fails grows as fast as theory says. Every subject has a case that fails. */
 #include "testing.h"
 
 #include "tests/lab/atlas.h"
@@ -39,7 +39,8 @@ static void steps_stand_as_long_as_theory_says(void **state)
    1 + (w dt)^4/4 and 1 + (w dt)^4/8; the others stand w dt = 2 */
 static void factors_are_those_of_an_oscillator(void **state)
 {
-    theory_step t = {.medium = THEORY_WATER, .integrator = SPH_KICK_DRIFT_KICK, .kernel = SPH_CUBIC, .n = 12, .h = 1.2};
+    theory_step t = {.medium = THEORY_WATER, .integrator = SPH_KICK_DRIFT_KICK, .kernel = SPH_CUBIC, .n = 12, .h = 1.2,
+                     .mass = 1};
     const double limit = theory_limit(&t), w = 2 / limit, z = 0.15, dt = z / w, z4 = z * z * z * z;
     (void)state;
     close_to(theory_factor(&t, 0.9 * limit), 1, 1e-4);
@@ -54,7 +55,8 @@ static void factors_are_those_of_an_oscillator(void **state)
 
 static growth_case square(uint32_t form, double h, double volume)
 {
-    return growth_sided((growth_case){.form = form, .kernel = SPH_CUBIC, .h = h, .mu = 0.22, .volume = volume, .exponent = 4}, 12);
+    const growth_case c = {.form = form, .kernel = SPH_CUBIC, .h = h, .mu = 0.22, .volume = volume, .exponent = 4};
+    return growth_sided(c, 12);
 }
 
 static void theory_is_that_of_dispersion(void **state)
@@ -105,7 +107,8 @@ static void tension_breaks_all_but_the_total_form(void **state)
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         const growth_case c = square(list[i].form, list[i].h, list[i].volume);
         const double t = growth_theory(&c), m = growth_measured(&c, 250);
-        print_message("atlas: %s, h %.1f, V/V0 %.3f: grows by %.3f c0/dx, theory %.3f\n", atlas_forms[c.form], c.h, c.volume, m, t);
+        print_message("atlas: %s, h %.1f, V/V0 %.3f: grows by %.3f c0/dx, theory %.3f\n", atlas_forms[c.form], c.h, c.volume,
+                      m, t);
         assert_int_equal(m > 0, list[i].grows);
         assert_int_equal(t > 0, list[i].grows);
         close_to(m, t, 0.05 * t);
@@ -133,7 +136,8 @@ static void wide_splines_pair(void **state)
     double mean[2];
     (void)state;
     for (int i = 0; i < 2; i++) {
-        growth_case c = {.form = SPH_UPDATED, .kernel = i ? SPH_WENDLAND_C2 : SPH_CUBIC, .lattice = SPH_LATTICE_SHIFTED_X, .h = 2, .volume = 1 / 1.1};
+        growth_case c = {.form = SPH_UPDATED, .kernel = i ? SPH_WENDLAND_C2 : SPH_CUBIC, .h = 2, .volume = 1 / 1.1};
+        c.lattice = SPH_LATTICE_SHIFTED_X;
         c = growth_sided(c, 12);
         const double t = growth_theory(&c), m = growth_measured(&c, 500), nearest = growth_nearest(&c, 600, &mean[i]);
         print_message("atlas: %s, h 2, compressed: grows by %.3f c0/dx, theory %.3f; nearest %.2f dx, mean %.2f\n",
@@ -160,7 +164,8 @@ static void chains_buckle_at_powells_stretch(void **state)
     static const uint32_t kernel[] = {SPH_CUBIC, SPH_WENDLAND_C2};
     for (int i = 0; i < 2; i++) {
         const double end = 2000, seen = tension_cholesky(kernel[i], 1.2, 30, 0.2, TENSION_SEEN / end);
-        const double limit = tension_cholesky(kernel[i], 1.2, 30, 0.2, 0), ran = tension_running(kernel[i], 1.2, 30, 0.2, end, 0.01);
+        const double limit = tension_cholesky(kernel[i], 1.2, 30, 0.2, 0);
+        const double ran = tension_running(kernel[i], 1.2, 30, 0.2, end, 0.01);
         print_message("atlas: chain, %s: buckles at a stretch of %.5f, theory %.5f\n", atlas_kernels[kernel[i]], ran, limit);
         close_to(ran, seen, 0.02 * seen);
         close_to(seen, limit, 0.03 * limit);
@@ -225,7 +230,8 @@ static void float_and_double_part_where_it_is_unstable(void **state)
 {
     const precision_pair a = precision_part(PAIR_TENSION, 600), b = precision_part(PAIR_BLOCK, 1500);
     (void)state;
-    print_message("atlas: float and double, 1e-3 dx apart: in tension after %u steps, a block that rings never in %u\n", a.part[0][0], b.steps);
+    print_message("atlas: float and double, 1e-3 dx apart: in tension after %u steps, a block that rings never in %u\n",
+                  a.part[0][0], b.steps);
     assert_true(a.part[0][0] > 100 && a.part[0][0] < 600);
     assert_int_equal(b.steps, 1500);
     assert_int_equal(b.part[0][0], 0);

@@ -87,7 +87,8 @@ wall_leak wall_throw(uint32_t choice, double strength, uint32_t layers, double s
 /* ---- float and double: see atlas_precision.c ---- */
 enum { PAIR_TANK, PAIR_DAM, PAIR_VORTEX, PAIR_BLOCK, PAIR_TENSION, PAIR_SCENES };
 typedef struct precision_pair {
-    uint32_t steps, part[2][2]; /* steps done; until the largest [0] and the mean [1] difference passed 1e-3 and 0.1 dx; 0: never */
+    uint32_t steps;
+    uint32_t part[2][2]; /* steps until the largest [0] and the mean [1] difference passed 1e-3 and 0.1 dx; 0: never */
     double moved[2];            /* at the end: largest and mean difference, dx */
     double kinetic, front;      /* largest difference of the kinetic energies over its largest value; of the fronts, dx */
 } precision_pair;

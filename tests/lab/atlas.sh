@@ -9,7 +9,8 @@ sum=$(cat sph/*.[ch] tools/dispersion.[ch] $out/atlas*.[ch] $out/box.[ch] $out/t
 mkdir -p "$BUILD/atlas_made"
 list=
 for t in ${*:-$("$BUILD/atlas" list)}; do
-    if [ -f $out/atlas_"$t".csv ] && [ "$(cat "$BUILD/atlas_made/$t" 2>/dev/null)" = "$sum $(cksum <$out/atlas_"$t".csv)" ]; then
+    made=$(cat "$BUILD/atlas_made/$t" 2>/dev/null || true)
+    if [ -f $out/atlas_"$t".csv ] && [ "$made" = "$sum $(cksum <$out/atlas_"$t".csv)" ]; then
         echo "atlas: $t is up to date"
     else
         list="$list $t"

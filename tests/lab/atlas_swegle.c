@@ -8,8 +8,8 @@
    nothing further. Powell holds the particles around still; here the box is periodic, which linear theory covers exactly.
 
    With artificial stress the push is 1e-7 c0: principal axes are not followed where the principal stresses differ by less than
-   1e-9 K (tensile_part in sph/sweep.c), and with pushes of 1e-10 c0 slow waves do not grow. At V/V0 = 1 it has no linear theory: it
-   acts on the tension of a wave but not on its pressure. Runs show that at some h it feeds waves there (table swegle). */
+   1e-9 K (tensile_part in sph/sweep.c), and with pushes of 1e-10 c0 slow waves do not grow. At V/V0 = 1 it has no linear
+   theory: it acts on the tension of a wave but not on its pressure. Runs show that at some h it feeds waves there (table swegle). */
 #include "atlas.h"
 
 #include <stdlib.h>
@@ -79,16 +79,21 @@ void atlas_swegle(FILE *f)
         const char *name;
         uint32_t form;
         double epsilon;
-    } form[] = {{"updated", SPH_UPDATED, 0}, {"repulsion", SPH_UPDATED, 0.3}, {"corrected", SPH_CORRECTED, 0}, {"total", SPH_TOTAL, 0}};
+    } form[] = {{"updated", SPH_UPDATED, 0}, {"repulsion", SPH_UPDATED, 0.3}, {"corrected", SPH_CORRECTED, 0},
+                {"total", SPH_TOTAL, 0}};
     atlas_head(f, "swegle", "Swegle test: growth rate of a push of 1e-10 c0, c0/dx",
-               "square lattice, periodic, cubic spline, mu = 0.22 K, volume strain V/V0 (above 1: tension); repulsion: updated with\n"
-               "artificial stress 0.3, n = 4, pushed with 1e-7 c0; measured: fit over runs of 400 dx/c0; theory: the fastest wave of the box (theory.c); 0: below 0.01",
+               "square lattice, periodic, cubic spline, mu = 0.22 K, volume strain V/V0 (above 1: tension)\n"
+               "repulsion: updated with artificial stress 0.3, n = 4, pushed with 1e-7 c0; measured: fit over runs of 400 dx/c0\n"
+               "theory: the fastest wave of the box (theory.c), which artificial stress at V/V0 = 1 does not have; 0: below 0.01",
                "form,volume,h,measured,theory");
     for (size_t i = 0; i < sizeof form / sizeof *form; i++)
         for (size_t k = 0; k < sizeof h / sizeof *h; k++)
             for (size_t v = 0; v < sizeof volume / sizeof *volume; v++) {
-                const growth_case c = growth_sided((growth_case){.form = form[i].form, .kernel = SPH_CUBIC, .h = h[k], .mu = 0.22,
-                                                                 .volume = volume[v], .epsilon = form[i].epsilon, .exponent = 4}, 12);
+                growth_case c = {.form = form[i].form, .kernel = SPH_CUBIC, .h = h[k], .mu = 0.22};
+                c.volume = volume[v];
+                c.epsilon = form[i].epsilon;
+                c.exponent = 4;
+                c = growth_sided(c, 12);
                 fprintf(f, "%s,%.4g,%.3g,%.3f,%.3f\n", form[i].name, c.volume, c.h, growth_measured(&c, END), growth_theory(&c));
                 fflush(f);
             }
@@ -100,17 +105,18 @@ void atlas_repulsion(FILE *f)
     static const uint32_t exponent[] = {2, 4, 6};
     static const double lambda[] = {0.9, 0.97};
     atlas_head(f, "repulsion", "tension with artificial stress: growth rate of a push of 1e-7 c0, c0/dx",
-               "as table swegle, form updated; lambda: rest density 1/lambda times the density (Gray 2001 eq 5.78), so V/V0 = 1/lambda\n"
-               "0: below 0.01; epsilon 0: no artificial stress",
+               "as table swegle, form updated; lambda: rest density 1/lambda times the density (Gray 2001 eq 5.78), so V/V0 is\n"
+               "1/lambda; 0: below 0.01; epsilon 0: no artificial stress",
                "epsilon,exponent,h,lambda,measured,theory");
     for (size_t l = 0; l < sizeof lambda / sizeof *lambda; l++)
         for (size_t k = 0; k < sizeof h / sizeof *h; k++)
             for (size_t n = 0; n < sizeof exponent / sizeof *exponent; n++)
                 for (size_t e = 0; e < sizeof epsilon / sizeof *epsilon; e++) {
-                    const growth_case c =
-                        growth_sided((growth_case){.form = SPH_UPDATED, .kernel = SPH_CUBIC, .h = h[k], .mu = 0.22, .volume = 1 / lambda[l],
-                                                   .epsilon = epsilon[e], .exponent = exponent[n]}, 12);
-                    fprintf(f, "%.3g,%u,%.3g,%.3g,%.3f,%.3f\n", epsilon[e], exponent[n], h[k], lambda[l], growth_measured(&c, END),
+                    growth_case c = {.form = SPH_UPDATED, .kernel = SPH_CUBIC, .h = h[k], .mu = 0.22, .volume = 1 / lambda[l]};
+                    c.epsilon = epsilon[e];
+                    c.exponent = exponent[n];
+                    c = growth_sided(c, 12);
+                    fprintf(f, "%.3g,%u,%.3g,%.3g,%.3f,%.3f\n", c.epsilon, c.exponent, c.h, lambda[l], growth_measured(&c, END),
                             growth_theory(&c));
                     fflush(f);
                 }
@@ -122,20 +128,23 @@ void atlas_pairing(FILE *f)
     static const double h[] = {1, 1.2, 1.4, 1.6, 1.8, 2, 2.5}, rho[] = {1.1};
     static const char *const lattice[] = {"square", "shifted_x"};
     atlas_head(f, "pairing", "compression: growth rate of a push of 1e-10 c0, c0/dx, and how near particles come",
-               "periodic, form updated with mu = 0 (water of p = c0^2 (rho - rho0)), rho: density over that at rest; neighbours: with itself\n"
-               "measured, theory: as table swegle; nearest: smallest distance of two particles, dx, 600 dx/c0 after noise of 1e-2 c0 with\n"
-               "alpha 0.1; nearest_mean: mean over the particles of the distance to the nearest (1 on the square lattice, 1.075 on a hexagonal one)",
+               "periodic, form updated with mu = 0 (water of p = c0^2 (rho - rho0)), rho: density over that at rest\n"
+               "neighbours: with itself; measured, theory: as table swegle (none where neighbours stand on a rim at which the kernel\n"
+               "jumps: gaussian, h 1); nearest: smallest distance of two particles, dx, 600 dx/c0 after noise of 1e-2 c0 with\n"
+               "alpha 0.1; nearest_mean: mean over the particles of the distance to the nearest (1 on the square lattice, 1.075 on a\n"
+               "hexagonal one)",
                "kernel,h,neighbours,rho,measured,theory,nearest,nearest_mean,lattice");
     for (uint32_t l = 0; l < 2; l++)
         for (size_t k = 0; k < sizeof kernel / sizeof *kernel; k++)
             for (size_t j = 0; j < sizeof h / sizeof *h; j++)
                 for (size_t r = 0; r < sizeof rho / sizeof *rho; r++) {
-                    const growth_case c = growth_sided((growth_case){.form = SPH_UPDATED, .kernel = kernel[k], .lattice = l, .h = h[j],
-                                                                     .volume = 1 / rho[r]}, 12);
+                    growth_case c = {.form = SPH_UPDATED, .kernel = kernel[k], .lattice = l, .h = h[j], .volume = 1 / rho[r]};
                     double mean;
+                    c = growth_sided(c, 12);
                     const double nearest = growth_nearest(&c, 600, &mean);
-                    fprintf(f, "%s,%.3g,%u,%.3g,%.3f,%.3f,%.2f,%.2f,%s\n", atlas_kernels[c.kernel], c.h,
-                            box_neighbours(c.kernel, l, c.h), rho[r], growth_measured(&c, END), growth_theory(&c), nearest, mean, lattice[l]);
+                    fprintf(f, "%s,%.3g,%u,%.3g,%.3f,%.3f", atlas_kernels[c.kernel], c.h, box_neighbours(c.kernel, l, c.h), rho[r],
+                            growth_measured(&c, END), growth_theory(&c));
+                    fprintf(f, ",%.2f,%.2f,%s\n", nearest, mean, lattice[l]);
                     fflush(f);
                 }
 }

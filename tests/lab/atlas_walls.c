@@ -17,7 +17,8 @@
 
 #include "box.h"
 
-const char *const wall_names[WALL_CHOICES] = {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "ghost_held", "adami", "mirror"};
+const char *const wall_names[WALL_CHOICES] = {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "ghost_held", "adami",
+                                              "mirror"};
 
 static sph_wall wall_of(uint32_t choice)
 {
@@ -157,7 +158,8 @@ void atlas_tank(FILE *f)
             fprintf(f, "still,%s,%u,left,%u,-\n", list[w].name, at[m], t[m].left);
         }
         if (end.step)
-            fprintf(f, "still,%s,%u,failed,%u,%s\n", list[w].name, at[MARKS - 1], end.step, sph_status_text((sph_status)end.status));
+            fprintf(f, "still,%s,%u,failed,%u,%s\n", list[w].name, at[MARKS - 1], end.step,
+                    sph_status_text((sph_status)end.status));
         fflush(f);
     }
 }
@@ -170,7 +172,8 @@ static double usual_strength(uint32_t choice) { return choice == WALL_LJ ? 1.0 /
 
 wall_leak wall_throw(uint32_t choice, double strength, uint32_t layers, double speed, bool put_back)
 {
-    const double size = 40, lo[2] = {16, 4}, hi[2] = {16 + SIDE, 4 + SIDE}, wlo[2] = {0, 0}, whi[2] = {size, size}, v[2] = {0, -speed};
+    const double size = 40, lo[2] = {16, 4}, hi[2] = {16 + SIDE, 4 + SIDE}, v[2] = {0, -speed};
+    const double wlo[2] = {0, 0}, whi[2] = {size, size};
     bool behind[SIDE * SIDE] = {false};
     wall_leak out = {0};
     sph_config c = config_of(choice, size, size);
@@ -210,7 +213,8 @@ void atlas_leak(FILE *f)
     static const double speed[] = {0.05, 0.1, 0.3, 1, 2}, strength[] = {0.1, 1, 10};
     atlas_head(f, "leak", "water thrown at a wall: what goes through",
                "2-D, float, a block of 8 by 8 particles, no gravity, defaults of sph_config_default; x: speed over c0\n"
-               "strength: over the usual one; layers: of ghosts, 3 are usual; crossed: share seen more than dx/2 behind the wall (IGNORE)\n"
+               "strength: over the usual one; layers: of ghosts, 3 are usual; crossed: share that was seen more than dx/2 behind the\n"
+               "wall (IGNORE)\n"
                "put_back: how often one is put back with PUT_BACK, and crossed_put_back: the share behind the wall in spite of it\n"
                "failed 1: a step failed before the end; no row: none did",
                "case,choice,x,figure,value,unit");
@@ -221,7 +225,10 @@ void atlas_leak(FILE *f)
             char choice[64];
             if (!pushes && (k == 2 || (w == WALL_MIRROR && k == 0)))
                 continue;
-            snprintf(choice, sizeof choice, pushes ? "strength_%.3g" : w == WALL_MIRROR ? "face" : "layers_%.0f", pushes ? strength[k] : layers ? 1.0 : 3.0);
+            if (pushes)
+                snprintf(choice, sizeof choice, "strength_%.3g", strength[k]);
+            else
+                snprintf(choice, sizeof choice, "%s", w == WALL_MIRROR ? "face" : layers ? "layers_1" : "layers_3");
             for (size_t v = 0; v < sizeof speed / sizeof *speed; v++) {
                 const wall_leak a = wall_throw(w, pushes ? strength[k] : 0, pushes ? 0 : layers, speed[v], false);
                 const wall_leak b = wall_throw(w, pushes ? strength[k] : 0, pushes ? 0 : layers, speed[v], true);

@@ -102,8 +102,9 @@ void atlas_water(FILE *f)
     static const double density[] = {0.99, 0.95};
     static const uint32_t kernel[] = {SPH_WENDLAND_C2, SPH_CUBIC};
     atlas_head(f, "water", "water under negative pressure: growth of pushes, and where particles end",
-               "periodic square, h = 1.2 dx, p = c0^2 (rho - rho0); x: density over rho0; floor: p >= 0; molteni: delta 0.1; shepard: every\n"
-               "20 steps; xsph: 0.5; growth: without viscosity; nearest (mean over particles), hole: 600 dx/c0 after noise of 1e-2 c0, alpha 0.1\n"
+               "periodic square, h = 1.2 dx, p = c0^2 (rho - rho0); x: density over rho0; floor: p >= 0; molteni: delta 0.1\n"
+               "shepard: every 20 steps; xsph: 0.5; growth: without viscosity; nearest (mean over particles), hole: 600 dx/c0 after\n"
+               "noise of 1e-2 c0, alpha 0.1\n"
                "theory: of the plain form",
                "case,choice,x,figure,value,unit");
     for (size_t k = 0; k < sizeof kernel / sizeof *kernel; k++)

@@ -12,7 +12,8 @@
      dM_mn = -i rho (U_m a_n + c_mnl U_l)              (total: without c)
    which for the updated form is the matrix of tools/dispersion.c; artificial stress and other lattices are taken from there.
 
-   Steps. At no stress positions do not matter. A wave is q = (rho, S or, with summed density, x) and v:
+   Steps. Sums count with the mass of a particle. At no stress positions do not matter. A wave is q = (rho, S;
+   or, with summed density, x) and v:
      q' = A v,   v' = B q - D v,   D = alpha h c0 d
    and a step, as step.c and sort.c do it, is
      kick-drift-kick, leap-frog   q += dt A w, w += dt (B q - D w) of the velocity w at half steps: both are the same
@@ -101,7 +102,8 @@ static void growth_column(const theory_box *b, const sums *s, int l, double out[
 void theory_modes(const theory_box *b, const double k[2], double value[2], bool *complex_pair)
 {
     if (b->form == SPH_UPDATED && (b->epsilon > 0 || b->lattice != LATTICE_SQUARE)) {
-        const elastic_state e = {.rho = 1, .c = 1, .mu = b->mu, .pressure = 1 - b->volume, .epsilon = b->epsilon, .n = b->exponent};
+        const elastic_state e = {.rho = 1, .c = 1, .mu = b->mu, .pressure = 1 - b->volume, .epsilon = b->epsilon,
+                                 .n = b->exponent};
         wave_modes w;
         lattice_waves(&e, b->kernel, b->lattice, b->h, 1, k, &w);
         value[0] = -w.omega2[0];
@@ -145,7 +147,7 @@ typedef double matrix[SIZE][SIZE];
 /* y' = f y for y = (q, v) */
 static void rates(const theory_step *t, const sums *s, double f[ONE][ONE])
 {
-    const double m0 = t->medium == THEORY_CORRECTED ? s->m0 : 1, a[2] = {s->a[0] / m0, s->a[1] / m0};
+    const double m0 = t->medium == THEORY_CORRECTED ? s->m0 : 1 / t->mass, a[2] = {s->a[0] / m0, s->a[1] / m0};
     memset(f, 0, sizeof(double) * ONE * ONE);
     for (int l = 0; l < 2; l++) {
         if (t->medium == THEORY_SUMMED) { /* q: x */
@@ -164,7 +166,7 @@ static void rates(const theory_step *t, const sums *s, double f[ONE][ONE])
             f[Q + l][3] = a[1 - l];
         }
         for (int m = 0; m < 2; m++)
-            f[Q + m][Q + l] = -t->alpha * t->h * s->d[pair_of(m, l)];
+            f[Q + m][Q + l] = -t->alpha * t->h * t->mass * s->d[pair_of(m, l)];
     }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* theory.h: what linear theory says of a square of particles on a lattice with periodic sides: how fast the fastest of its waves
-   grows, and the largest step that an integrator stands. Lengths in spacings, speeds in c0, density at rest 1: times in dx/c0. */
+/* theory.h: what linear theory says of a square of particles on a lattice with periodic sides: how fast the fastest of its
+   waves grows, and the largest step that an integrator stands. Lengths in spacings, speeds in c0, density 1: times in dx/c0. */
 #ifndef LAB_THEORY_H
 #define LAB_THEORY_H
 
@@ -31,6 +31,7 @@ enum { THEORY_WATER, THEORY_SUMMED, THEORY_UPDATED, THEORY_CORRECTED };
 typedef struct theory_step {
     uint32_t medium, integrator, kernel, n;
     double h, mu, alpha; /* artificial viscosity of factor alpha, beta 0 */
+    double mass;         /* of a particle; 1, or what makes a summed density 1 */
 } theory_step;
 
 /* largest factor by which a step multiplies any wave of the box; dt in dx/c0 */
