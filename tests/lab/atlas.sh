@@ -8,7 +8,9 @@ out=tests/lab
 sum=$(cat sph/*.[ch] tools/dispersion.[ch] $out/atlas*.[ch] $out/box.[ch] $out/theory.[ch] $out/precision_run.[ch] | cksum)
 mkdir -p "$BUILD/atlas_made"
 list=
-for t in ${*:-$("$BUILD/atlas" list)}; do
+# shellcheck disable=SC2046
+[ $# -gt 0 ] || set -- $("$BUILD/atlas" list)
+for t; do
     made=$(cat "$BUILD/atlas_made/$t" 2>/dev/null || true)
     if [ -f $out/atlas_"$t".csv ] && [ "$made" = "$sum $(cksum <$out/atlas_"$t".csv)" ]; then
         echo "atlas: $t is up to date"
@@ -18,7 +20,7 @@ for t in ${*:-$("$BUILD/atlas" list)}; do
 done
 [ -n "$list" ] || exit 0
 export BUILD out sum
-# shellcheck disable=SC2016
+# shellcheck disable=SC2016,SC2086
 printf '%s\n' $list | xargs -P "${JOBS:-$(getconf _NPROCESSORS_ONLN)}" -n 1 sh -c '
     start=$(date +%s)
     "$BUILD/atlas" "$1" "$out/atlas_$1.csv" || exit 1
