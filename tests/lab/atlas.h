@@ -71,12 +71,8 @@ typedef struct wall_tank {
     double speed, moved, nearest, pressure;
     uint32_t put_back, left;
 } wall_tank;
-typedef struct wall_end {
-    uint32_t step; /* the step that failed, 0: none */
-    int status;
-} wall_end;
-/* out[m]: the tank after at[m] steps, for so many as it got to */
-uint32_t wall_rest(const tank_case *k, const uint32_t *at, uint32_t marks, wall_tank *out, wall_end *end);
+/* out[m]: the tank after at[m] steps, for so many as it got to; *failed: the step that failed, 0: none */
+uint32_t wall_rest(const tank_case *k, const uint32_t *at, uint32_t marks, wall_tank *out, uint32_t *failed);
 typedef struct wall_leak {
     double crossed; /* share */
     uint32_t put_back;
