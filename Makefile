@@ -80,7 +80,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
 .PHONY: targets travel refuse wasm browser
-.PHONY: size-gate slices baremetal lab lab-smoke charts
+.PHONY: size-gate slices baremetal lab lab-smoke charts atlas
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -154,20 +154,26 @@ builds_test_scenes  := $(BUILDS)
 builds_test_shapes  := $(BUILDS)
 builds_test_contact := $(BUILDS)
 # of commands of the tool, linked with those that need no scene: one build
-TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile test_advise
+TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile test_advise test_atlas
 $(foreach t,$(TOOL_TESTS),$(eval builds_$(t) := 2d))
 builds_test_solid   := $(BUILDS)
 builds_test_solid_forces := $(BUILDS)
 builds_test_solid_motion := $(BUILDS)
 builds_test_damage  := 2f 2d 3f 3d
 builds_of = $(or $(builds_$(1)),2f 2d)
+# the stability atlas (tests/lab): one program of parts from several builds
+atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension box) \
+	$(patsubst %,2d/tests/lab/%,atlas_courant atlas_swegle atlas_water box theory precision_run) \
+	$(patsubst %,2f/tests/lab/%,atlas_walls box precision_run) $(patsubst %,tests/lab/%,atlas_names atlas_precision) \
+	tools/dispersion)
+atlas_libs := $(BUILD)/libsph1d.a $(BUILD)/libsph2f.a
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
 
 command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o cmd_list.o),$(tools_obj))
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
 
 define test_rule
-$(BUILD)/tests/$(1)_$(2): $(BUILD)/obj/$(2)/tests/$(1).o $(call of_tool,$(1),$(command_obj)) $(port_obj) $(SCENES:%.c=$(BUILD)/obj/$(2)/%.o) $(BUILD)/libsph$(2).a
+$(BUILD)/tests/$(1)_$(2): $(BUILD)/obj/$(2)/tests/$(1).o $(call of_tool,$(1),$(command_obj)) $(if $(filter test_atlas,$(1)),$(atlas_obj) $(atlas_libs)) $(port_obj) $(SCENES:%.c=$(BUILD)/obj/$(2)/%.o) $(BUILD)/libsph$(2).a
 	$$(say) link $$@
 	@mkdir -p $$(@D)
 	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(LDFLAGS) $$(THREADS) $$^ -o $$@ -lcmocka $(call of_tool,$(1),$(PNG_LIBS)) -lm
@@ -302,6 +308,15 @@ $(BUILD)/size_arena: $(BUILD)/obj/tests/size_main.o $(BUILDS:%=$(BUILD)/obj/%/te
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
 
+# ---- the stability atlas: ATLAS tables that are not there or whose sources changed -> tests/lab/atlas_NAME.csv ----
+
+$(BUILD)/atlas: $(BUILD)/obj/tests/lab/atlas.o $(atlas_obj) $(LIBS)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
+atlas:
+	$(Q)$(MAKE) --no-print-directory $(BUILD)/fast/atlas BUILD=$(BUILD)/fast OPT="-O3 -march=native"
+	$(Q)BUILD=$(BUILD)/fast sh tests/lab/atlas.sh $(ATLAS)
+
 validate: all
 	$(Q)$(PYTHON) tests/validate.py --tool $(BUILD)/sph
 validate-water validate-solids: validate-%: all
@@ -361,6 +376,7 @@ help:
 	'make fuzz       fuzzes four targets, FUZZ_SECONDS each (clang)            -> $(BUILD)/fuzz.csv' \
 	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
 	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \
+	'make atlas      where methods get unstable, against linear theory (ATLAS: some tables) -> tests/lab/atlas_*.csv' \
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck and clang-tidy, those that are installed' \
 	'make clean      removes $(BUILD)' \
