@@ -52,6 +52,8 @@ class LabRun(Run):
         return Run.command(self, tool) + [f"cost={self.prefix()}.cost"]
 
     def cost(self, name):
+        if not os.path.exists(self.prefix() + ".cost"):
+            return 0.0  # it was refused before its first step
         with open(self.prefix() + ".cost") as f:
             return float(next(r["value"] for r in csv.DictReader(f) if r["name"] == name))
 
@@ -181,7 +183,7 @@ def line_of(study, r, counts):
     except (KeyError, ValueError, IndexError, TypeError, ZeroDivisionError) as e:
         error, cause = "", re.sub(r"^sph run: ", "", str(r.error or f"no figure: {e}"))
     steps, done = r.cost("steps"), r.cost("particle_steps")
-    ended = r.cost("time") / r.cost("end") if r.cost("end") else 1
+    ended = r.cost("time") / r.cost("end") if r.cost("end") else 0
     if ended < 1 - 1e-9 and not r.error:
         error, cause = "", f"not at the end after {steps:.0f} steps"
     ir = counts.get(r.name)

@@ -183,7 +183,7 @@ standing_wave = Study(
     {"default": {}, "no diffusion": dict(diffusion="none"), "cubic h 1.2": dict(kernel="cubic", h=1.2),
      "quintic h 1.5": dict(kernel="quintic", h=1.5), "h 1.5": dict(h=1.5), "h 1.2": dict(h=1.2),
      "Morris": dict(viscosity="morris"), "ghost, p from continuity": dict(wall="ghost_compressible"),
-     "kernel force": dict(wall="kernel_force", diffusion="none"), "Shepard 40": dict(diffusion="none", shepard=40),
+     "Shepard 40": dict(diffusion="none", shepard=40),
      "predictor-corrector": PC, "sound 7": dict(sound=7.0710678)},
     base=dict(periods=3, frames=120), doubles=("default",), at=20,
     h={"Wendland C2": ({}, [1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0])},
