@@ -19,7 +19,8 @@ static const char help[] =
     "  study=      one study; a scene may have several, with norms of their own: what is chosen meets all of that unit\n"
     "  step=       any: runs whose time step was set by hand too, some at the edge of what is stable\n"
     "Exit code 1 where nothing is known: no study of the scene, or no run that reaches the error. Runs that blew up or\n"
-    "did not reach their end are left out.\n";
+    "did not reach their end are left out, and those that were right by luck: finer runs of the same method are more than twice as\n"
+    "wrong, or coarser ones so much that no method of the fourth order could have come from there.\n";
 
 enum { MOST_STUDIES = 32 };
 
@@ -39,7 +40,7 @@ typedef struct advice {
     int precision, cost; /* precision: 0 float, 1 double, 2 both; cost: number of a run */
     studies tables;
     choice *choice;
-    uint32_t choices, failed, uncounted, by_hand;
+    uint32_t choices, failed, uncounted, by_hand, lucky;
     bool any_step;
 } advice;
 
@@ -104,6 +105,10 @@ static void take_runs(advice *a, uint32_t s)
         }
         if (r->number[a->cost] < 0) {
             a->uncounted++;
+            continue;
+        }
+        if (r->lucky) {
+            a->lucky++;
             continue;
         }
         choice *c = find_choice(a, r);
@@ -282,6 +287,8 @@ static void put_rest(const advice *a)
         printf("left out    %u runs that blew up, ended early or gave no figure\n", a->failed);
     if (a->by_hand)
         printf("left out    %u runs whose time step was set by hand (step=any takes them in)\n", a->by_hand);
+    if (a->lucky)
+        printf("left out    %u runs whose error the same method's other sizes do not bear out\n", a->lucky);
     if (a->uncounted)
         printf("left out    %u runs without a count of %s\n", a->uncounted, cost_name(a));
 }

@@ -107,7 +107,7 @@ static bool read_row(study *s, char *line, unsigned long number, const uint32_t 
         host_no("%s: line %lu: not %u cells", s->file, number, cells);
         return false;
     }
-    study_run r = {cell[place[SWEEP]], cell[place[LABEL]], cell[place[CAUSE]], cell[place[OPTIONS]], {0}, false, number};
+    study_run r = {cell[place[SWEEP]], cell[place[LABEL]], cell[place[CAUSE]], cell[place[OPTIONS]], {0}, false, number, false};
     const char *const precision = cell[place[PRECISION]];
     r.is_double = !strcmp(precision, "double");
     if (!r.is_double && strcmp(precision, "float") != 0)
@@ -143,6 +143,25 @@ static unsigned long read_headers(study *s, char **p)
     return number;
 }
 
+bool studies_lucky(const study_run *a, const study_run *b)
+{
+    const double *x = a->number, *y = b->number;
+    const bool sizes = !strcmp(a->sweep, "method") || !strcmp(a->sweep, "precision");
+    if (!sizes || strcmp(a->sweep, b->sweep) != 0 || strcmp(a->label, b->label) != 0 || a->is_double != b->is_double)
+        return false;
+    if (x[STUDY_ERROR] < 0 || y[STUDY_ERROR] < 0 || *b->cause || !(x[STUDY_PAIRS] > 0) || !(y[STUDY_PAIRS] > 0))
+        return false;
+    const double fall = y[STUDY_PAIRS] < x[STUDY_PAIRS] ? pow(y[STUDY_PAIRS] / x[STUDY_PAIRS], 4.0 / 3) : 1;
+    return y[STUDY_ERROR] * fall > 2 * x[STUDY_ERROR];
+}
+
+static void mark_lucky(study *s)
+{
+    for (uint32_t i = 0; i < s->runs; i++)
+        for (uint32_t k = 0; k < s->runs; k++)
+            s->run[i].lucky = s->run[i].lucky || studies_lucky(&s->run[i], &s->run[k]);
+}
+
 static bool read_rows(study *s, char *p, unsigned long number)
 {
     uint32_t place[COLUMNS], cells = 0;
@@ -153,6 +172,7 @@ static bool read_rows(study *s, char *p, unsigned long number)
         if (!(cells ? read_row(s, line, number, place, cells) : read_columns(s, line, number, place, &cells)))
             return false;
     }
+    mark_lucky(s);
     if (s->runs)
         return true;
     host_no("%s: no rows", s->file);

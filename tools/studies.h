@@ -26,7 +26,13 @@ typedef struct study_run {
     double number[STUDY_NUMBERS]; /* negative: not given */
     bool is_double;
     unsigned long line; /* in the file */
+    bool lucky;         /* the other sizes of its label do not bear its error out: see studies_lucky */
 } study_run;
+
+/* Is a's error by luck, by what the same method gave with other pairs? A finer run that is more than twice as wrong says so, and
+   a coarser one from which the error would have had to fall by more than twice what the fourth order in 2-D gives: pairs go as
+   n^3 there, so the error as pairs^(-4/3). */
+bool studies_lucky(const study_run *a, const study_run *b);
 
 typedef struct study {
     char *file;

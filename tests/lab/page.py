@@ -295,7 +295,7 @@ def make(folder, charts):
     body = ["<h1>sph: what accuracy costs</h1>\n", INTRO]
     if found:
         body += ["<h2>Your scene: choose this</h2>\n<p>The cheapest run whose error is at most twice the smallest "
-                 "known one. What half the error costs is a straight line through the Pareto front in logarithms.</p>\n",
+                 "known one; what was right by luck, by the other sizes of the same method, is left out. What half the error costs is a straight line through the Pareto front in logarithms.</p>\n",
                  choices_table(found)]
     body += [section(s, charts, up) for s in found]
     if stages:

@@ -65,6 +65,19 @@ class Study:
             r["good"] = r["error"] is not None and (r["ended"] or 0) >= 1 and not r["cause"]
             self.rows.append(r)
 
+        for r in self.rows:
+            r["lucky"] = any(self.lucky(r, q) for q in self.rows)
+
+    @staticmethod
+    def lucky(a, b):
+        """Is a's error by luck, by what b says, the same method with other pairs? As studies_lucky in tools/studies.c."""
+        if a["sweep"] not in ("method", "precision") or any(a[k] != b[k] for k in ("sweep", "label", "precision")):
+            return False
+        if a["error"] is None or b["error"] is None or b["cause"] or not a["pairs"] or not b["pairs"]:
+            return False
+        fall = (b["pairs"] / a["pairs"]) ** (4 / 3) if b["pairs"] < a["pairs"] else 1
+        return b["error"] * fall > 2 * a["error"]
+
     def sweep(self, name):
         return [r for r in self.rows if r["sweep"] == name]
 
@@ -76,7 +89,7 @@ class Study:
         return -r["n"] if self.size == "dp" else r["n"]
 
     def choices(self, cost):
-        return [r for r in self.rows if r["good"] and r["sweep"] != "courant" and r[cost]]
+        return [r for r in self.rows if r["good"] and not r["lucky"] and r["sweep"] != "courant" and r[cost]]
 
     def front(self, cost):
         """From cheap and poor to dear and good: no other run is as cheap and as good."""
