@@ -52,6 +52,9 @@ static void every_choice_gives_another_hash(void **state)
     }
 }
 
+/* In float every case goes with every setting, in double, which takes the same ways, with one of them, in turn: half the time. */
+static bool tried(uint32_t k, uint32_t setting, uint32_t settings) { return !SPH_DOUBLE || k % settings == setting; }
+
 static void threads_in_any_order_change_no_bit(void **state)
 {
     static const uint32_t threads[] = {2, 3, 8};
@@ -59,7 +62,9 @@ static void threads_in_any_order_change_no_bit(void **state)
     for (uint32_t k = 0; k < BITS_CASES; k++) {
         const bits_case *b = &bits_cases[k];
         uint64_t want = reference(b);
-        for (int t = 0; t < 3; t++) {
+        for (uint32_t t = 0; t < 3; t++) {
+            if (!tried(k, t, 3))
+                continue;
             shuffle s;
             sph_port port = shuffle_port(&s, threads[t]);
             same(finish(make(b, &port, 8), CASE_STEPS), want, b, "shuffled chunks");
@@ -99,7 +104,9 @@ static void slices_change_no_bit(void **state)
     for (uint32_t k = 0; k < BITS_CASES; k++) {
         const bits_case *b = &bits_cases[k];
         uint64_t want = reference(b);
-        for (int s = 0; s < 4; s++) {
+        for (uint32_t s = 0; s < 4; s++) {
+            if (!tried(k, s, 4))
+                continue;
             same(sliced(make(b, NULL, 1), budgets[s]), want, b, "slices");
             assert_int_equal(free_sims(NULL), 0);
         }
