@@ -27,7 +27,8 @@ double calibrate(void)
     double best = 1e300;
     for (uint32_t i = 0; i < POINTS; i++) {
         x[i] = 0.1f * (float)(i % 32);
-        y[i] = 0.1f * (float)(i / 32);
+        const uint32_t line = i / 32;
+        y[i] = 0.1f * (float)line;
     }
     for (int run = 0; run < 5; run++) {
         const uint64_t start = port_posix_clock(NULL);
