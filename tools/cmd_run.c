@@ -56,7 +56,7 @@ typedef struct run {
     uint32_t dump;
     const char *prefix, *out, *restore, *stage_name, *cost;
 
-    host_file history, stage;
+    host_file history, stage, costs;
     FILE *rows; /* null: no history */
     uint64_t frame, first_step, limit_steps[SPH_LIMITS], particle_steps, pairs;
     double first_time;
@@ -349,19 +349,16 @@ static void report(const run *r, FILE *out)
 }
 
 /* what the run cost up to its last good step, for charts (tests/lab); seconds are the only figures that change from run to run */
-static bool write_cost(const run *r)
+static void write_cost(run *r)
 {
-    host_file f;
+    FILE *f = r->costs.f;
     sph_step_info info;
-    if (!host_create(&f, r->cost))
-        return false;
     r->b->info(r->sim, &info);
     const double s = seconds(r->stepping), unit = calibrate();
-    fprintf(f.f, "name,value,unit\nparticles,%u,-\nsteps,%llu,-\nparticle_steps,%llu,-\npairs,%llu,-\ntime,%.10g,s\nend,%.10g,s\n",
+    fprintf(f, "name,value,unit\nparticles,%u,-\nsteps,%llu,-\nparticle_steps,%llu,-\npairs,%llu,-\ntime,%.10g,s\nend,%.10g,s\n",
             r->b->count(r->sim), (unsigned long long)(info.step - r->first_step), (unsigned long long)r->particle_steps,
             (unsigned long long)r->pairs, info.time, r->end);
-    fprintf(f.f, "seconds,%.6g,s\ncalibration,%.6g,s\ncalibrations,%.6g,-\n", s, unit, s / unit);
-    return host_finish(&f, true);
+    fprintf(f, "seconds,%.6g,s\ncalibration,%.6g,s\ncalibrations,%.6g,-\n", s, unit, s / unit);
 }
 
 /* ---- the run ---- */
@@ -453,7 +450,7 @@ static void catch_interrupt(void)
 
 static int run_scene(run *r)
 {
-    if (!open_sim(r) || (r->restore && !restore(r)) || !open_history(r))
+    if (!open_sim(r) || (r->restore && !restore(r)) || !open_history(r) || (r->cost && !host_create(&r->costs, r->cost)))
         return HOST_NO;
     sph_step_info info;
     r->b->info(r->sim, &info);
@@ -467,8 +464,8 @@ static int run_scene(run *r)
     catch_interrupt();
     int code = step_all(r);
     report(r, r->out && !r->hash ? stdout : stderr);
-    if (r->cost && !write_cost(r))
-        code = HOST_NO;
+    if (r->costs.f)
+        write_cost(r);
     if (r->hash)
         printf("%016llx\n", (unsigned long long)r->b->hash(r->sim));
     return code;
@@ -488,6 +485,8 @@ int cmd_run(int argc, char **argv)
     if (r.history.f && !host_finish(&r.history, true))
         code = HOST_NO;
     if (r.stage.f && !host_finish(&r.stage, true))
+        code = HOST_NO;
+    if (r.costs.f && !host_finish(&r.costs, true))
         code = HOST_NO;
     if (r.sim)
         r.b->close(r.sim);

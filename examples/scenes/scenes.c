@@ -54,7 +54,7 @@ sph_config scene_config(const double *p, double dx, double rho0, double sound_sp
     c.damping = p[SCENE_DAMPING];
     c.dt = p[SCENE_DT];
     c.cfl = p[SCENE_CFL];
-    /* Wickramarachchi's limit with gravity is a Courant number too, and shall not bind before the one that is asked for */
+    /* the limit with gravity (Gray 2.30) is a Courant number too, and shall not bind before the one that is asked for */
     c.gravity_factor = c.cfl > c.gravity_factor ? c.cfl : c.gravity_factor;
     c.books = p[SCENE_BOOKS] != 0;
     c.pressure_floor = p[SCENE_FLOOR] != 0;
