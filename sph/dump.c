@@ -610,7 +610,7 @@ static bool chosen(uint32_t fields, const char *name)
 
 static bool move_arrays(stream *s, const sph_sim *sim, const sph_buffer *b, uint32_t fields, uint32_t n)
 {
-#define SPH_FIELD_MOVE(name, type, comps, unit, when)                                                       \
+#define SPH_FIELD_MOVE(name, type, comps, unit, when, way)                                                       \
     if (b->name[0] && chosen(fields, #name)) {                                                              \
         void *array[comps];                                                                                 \
         for (uint32_t k = 0; k < (comps); k++)                                                              \
@@ -798,7 +798,7 @@ static bool read_all(stream *s, sph_sim *sim, uint32_t spare, run *r)
 static void wipe(const sph_sim *sim, const sph_buffer *b)
 {
     const size_t n = sim->cfg.max_particles;
-#define SPH_FIELD_WIPE(name, type, comps, unit, when)                                                       \
+#define SPH_FIELD_WIPE(name, type, comps, unit, when, way)                                                       \
     for (uint32_t k = 0; k < (comps); k++)                                                                  \
         if (b->name[k])                                                                                     \
             memset(b->name[k], 0, n * sizeof(type));

@@ -45,7 +45,7 @@ uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n)
 {
     uint64_t h = 0x5350482d68617368u;
     (void)sim;
-#define SPH_FIELD_HASH(name, type, comps, unit, when)                                                       \
+#define SPH_FIELD_HASH(name, type, comps, unit, when, way)                                                       \
     for (uint32_t k = 0; k < (comps); k++)                                                                  \
         if (b->name[k])                                                                                     \
             h = mix_array(h, b->name[k], sizeof(type), n);

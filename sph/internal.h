@@ -18,6 +18,7 @@
 #ifndef SPH_INTERNAL_H
 #define SPH_INTERNAL_H
 
+#include "fields.h"
 #include "lanes.h"
 #include "sph.h"
 
@@ -26,40 +27,6 @@
 #define SPH_PARTIALS (SPH_POWERS + 1u) /* sums of a chunk for the books: those, and energy given to held sets (J) */
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
-
-/* Positions are integers, counted in quanta from the domain's low corner. One quantum is a power of two (m) such
-   that the longest axis has less than 2^30 (float) or 2^52 (double) of them: equally fine everywhere, exact to
-   subtract, and 2^6 times finer than a float at the far end of the domain. */
-typedef sph_int sph_pos;
-#define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
-
-/* A tensor of SPH_DIM^2 components, row by row; a symmetric one: the diagonal, then xy, xz, yz. The deviatoric stress lacks the
-   last diagonal component in 3-D, which follows from the others (in 2-D and 1-D the missing ones are out of the plane). */
-#define SPH_NL (SPH_DIM * SPH_DIM)
-#define SPH_NT (SPH_DIM * (SPH_DIM + 1) / 2)
-#define SPH_NS (SPH_DIM == 1 ? 1 : SPH_DIM == 2 ? 3 : 5)
-
-/* the one list of state fields: name, element type, components, unit, condition on the configuration */
-#define SPH_STATE_FIELDS(X)                                                                                 \
-    X(pos, sph_pos, SPH_DIM, "quantum", true)                                                               \
-    X(vel, sph_real, SPH_DIM, "m/s", true)                                                                  \
-    X(rho, sph_real, 1, "1", true) /* (density - rho0)/rho0 */                                              \
-    X(acc, sph_real, SPH_DIM, "m/s^2", true)                                                                \
-    X(drho, sph_real, 1, "1/s", true)                                                                       \
-    X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c))                                                         \
-    X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c)) /* deviatoric: xx yy xy, xx yy xy xz yz */         \
-    X(dstress, sph_real, SPH_NS, "Pa/s", sph_has_solids(c))                                                 \
-    X(plastic, sph_real, 1, "1", sph_yields(c))                                                             \
-    X(damage, sph_real, 1, "1", sph_damages(c)) /* D^(1/SPH_DIM) */                                         \
-    X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c)) /* displacement since the start */               \
-    X(id, uint32_t, 1, "1", true) /* within a step: the particle's index in the source buffer */            \
-    X(set, uint8_t, 1, "1", true)
-
-typedef struct sph_buffer {
-#define SPH_FIELD_MEMBER(name, type, comps, unit, when) type *name[comps];
-    SPH_STATE_FIELDS(SPH_FIELD_MEMBER)
-#undef SPH_FIELD_MEMBER
-} sph_buffer;
 
 /* one particle set: constants that its particles share */
 typedef struct sph_set {

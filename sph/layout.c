@@ -333,7 +333,7 @@ static const struct {
     const char *name;
     uint8_t at, comps, bytes; /* number of its first pointer in sph_buffer, components, bytes of an element */
 } state_fields[] = {
-#define SPH_FIELD_ROW(name, type, comps, unit, when)                                                        \
+#define SPH_FIELD_ROW(name, type, comps, unit, when, way)                                                        \
     {"state: " #name, offsetof(sph_buffer, name) / sizeof(void *), comps, sizeof(type)},
     SPH_STATE_FIELDS(SPH_FIELD_ROW)
 #undef SPH_FIELD_ROW
@@ -342,7 +342,7 @@ static const struct {
 static void lay_out_state(const sph_config *c, sph_sim *s, uint32_t b, layout *l)
 {
     uint32_t wanted = 0, bit = 0; /* a bit for each field */
-#define SPH_FIELD_WANTED(name, type, comps, unit, when) wanted |= (uint32_t)(when) << bit++;
+#define SPH_FIELD_WANTED(name, type, comps, unit, when, way) wanted |= (uint32_t)(when) << bit++;
     SPH_STATE_FIELDS(SPH_FIELD_WANTED)
 #undef SPH_FIELD_WANTED
     for (uint32_t f = 0; f < bit; f++)

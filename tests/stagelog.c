@@ -105,7 +105,7 @@ static void log_place(const place *at)
     field(at, "dt", one, 1, sizeof s->dt, 1);
     one[0] = &s->next.peaks;
     field(at, "peaks", one, 1, sizeof(sph_real), sizeof s->next.peaks / sizeof(sph_real));
-#define LOG_FIELD(name, type, comps, unit, when)                                                            \
+#define LOG_FIELD(name, type, comps, unit, when, way)                                                            \
     {                                                                                                       \
         const void *part[comps];                                                                            \
         for (uint32_t k = 0; k < (comps); k++)                                                              \

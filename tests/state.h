@@ -27,7 +27,7 @@ static UNUSED size_t state_arrays(const sph_sim *sim, unsigned char *to, const u
 {
     const sph_buffer *b = &sim->buf[sim->cur];
     size_t at = 0;
-#define STATE_FIELD(name, type, comps, unit, when)                                                          \
+#define STATE_FIELD(name, type, comps, unit, when, way)                                                          \
     for (uint32_t k = 0; k < (comps); k++)                                                                  \
         if (b->name[k]) {                                                                                   \
             const size_t bytes = sizeof(type) * sim->now.count;                                             \

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* fields.h: what the state of a particle is made of: the list of its fields, and the types that they have. */
+#ifndef SPH_FIELDS_H
+#define SPH_FIELDS_H
+
+#include "lanes.h"
+#include "sph.h"
+
+/* Positions are integers, counted in quanta from the domain's low corner. One quantum is a power of two (m) such
+   that the longest axis has less than 2^30 (float) or 2^52 (double) of them: equally fine everywhere, exact to
+   subtract, and 2^6 times finer than a float at the far end of the domain. */
+typedef sph_int sph_pos;
+#define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
+
+/* A tensor of SPH_DIM^2 components, row by row; a symmetric one: the diagonal, then xy, xz, yz. The deviatoric stress lacks the
+   last diagonal component in 3-D, which follows from the others (in 2-D and 1-D the missing ones are out of the plane). */
+#define SPH_NL (SPH_DIM * SPH_DIM)
+#define SPH_NT (SPH_DIM * (SPH_DIM + 1) / 2)
+#define SPH_NS (SPH_DIM == 1 ? 1 : SPH_DIM == 2 ? 3 : 5)
+
+/* The one list of state fields:
+     name, element type, components, unit, condition on the configuration `c`, and how it goes through a step:
+       SPH_PLACED     the sort itself moves and advances it (what a cell is found by, and what the sweep reads at once)
+       SPH_RATE       made anew by the passes of every stage; walls get zeros
+       SPH_CARRIED    goes with its particle unchanged, until a pass of its own changes it
+       SPH_DISPLACED  carried, and gains what the particle moved (quanta)
+       SPH_EVOLVES(r) carried, and advanced by every integrator with its rate, field r
+   Sort, integrators, hash, dump, restore, wipe and arena sizes follow from it. */
+#define SPH_STATE_FIELDS(X)                                                                                       \
+    X(pos, sph_pos, SPH_DIM, "quantum", true, SPH_PLACED)                                                         \
+    X(vel, sph_real, SPH_DIM, "m/s", true, SPH_PLACED)                                                            \
+    X(rho, sph_real, 1, "1", true, SPH_PLACED) /* (density - rho0)/rho0 */                                        \
+    X(acc, sph_real, SPH_DIM, "m/s^2", true, SPH_RATE)                                                            \
+    X(drho, sph_real, 1, "1/s", true, SPH_RATE)                                                                   \
+    X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c), SPH_RATE)                                                 \
+    X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c), SPH_EVOLVES(dstress)) /* deviatoric: xx yy xy, xx yy xy xz yz */ \
+    X(dstress, sph_real, SPH_NS, "Pa/s", sph_has_solids(c), SPH_RATE)                                             \
+    X(plastic, sph_real, 1, "1", sph_yields(c), SPH_CARRIED)                                                      \
+    X(damage, sph_real, 1, "1", sph_damages(c), SPH_CARRIED) /* D^(1/SPH_DIM) */                                  \
+    X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c), SPH_DISPLACED) /* displacement since the start */      \
+    X(id, uint32_t, 1, "1", true, SPH_PLACED) /* within a step: the particle's index in the source buffer */      \
+    X(set, uint8_t, 1, "1", true, SPH_PLACED)
+
+typedef struct sph_buffer {
+#define SPH_FIELD_MEMBER(name, type, comps, unit, when, way) type *name[comps];
+    SPH_STATE_FIELDS(SPH_FIELD_MEMBER)
+#undef SPH_FIELD_MEMBER
+} sph_buffer;
+
+#endif
