@@ -18,6 +18,7 @@
 #ifndef SPH_INTERNAL_H
 #define SPH_INTERNAL_H
 
+#include "columns.h"
 #include "fields.h"
 #include "lanes.h"
 #include "sph.h"
@@ -25,6 +26,7 @@
 #define SPH_PAD 48u       /* elements that may be read past an array's end by a vector */
 #define SPH_POWERS 4u     /* kept in the books: viscous, wall, diffusion, body force */
 #define SPH_PARTIALS (SPH_POWERS + 1u) /* sums of a chunk for the books: those, and energy given to held sets (J) */
+#define SPH_LIMIT_SQUARE ((sph_real)1e30) /* a sum of squares above this counts as not finite; a float holds 3e38 */
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
 
@@ -108,7 +110,7 @@ typedef struct sph_grid {
     uint32_t pos_shift;
 } sph_grid;
 
-struct sph_thread; /* per-thread scratch: sweep.h */
+struct sph_thread; /* per-thread scratch: scratch.h */
 
 typedef struct sph_pass sph_pass;
 /* the stage a sort belongs to: which positions it moves the particles to, and what else it advances */
@@ -143,7 +145,9 @@ struct sph_sim {
     /* sets */
     sph_set *set;     /* SPH_MAX_SETS of them, in the arena like everything large */
     sph_material *material;                  /* as many, in scenes with solids */
-    struct sph_solid_scratch *solid_scratch; /* of each thread, in scenes with solids */
+    const struct sph_column_set *columns;    /* the table of column sets (columns.c) */
+    sph_real *extra;                         /* of each thread, extra_reals for the column sets that the scene wants */
+    uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT];
     sph_group *group; /* SPH_MAX_GROUPS */
     uint32_t sets, groups;
     uint64_t setup_hash;

@@ -37,10 +37,13 @@
 #if defined(__OPTIMIZE_SIZE__) /* -Os: loops stay loops, and no text is compiled twice for speed */
 #define SPH_SMALL 1
 #define SPH_UNROLL
+#define SPH_UNROLL_MANY
 #elif defined(__clang__)
 #define SPH_UNROLL _Pragma("unroll")
+#define SPH_UNROLL_MANY _Pragma("unroll")
 #else
 #define SPH_UNROLL _Pragma("GCC unroll 8")
+#define SPH_UNROLL_MANY _Pragma("GCC unroll 32")
 #endif
 #ifndef SPH_SMALL
 #define SPH_SMALL 0
@@ -89,6 +92,12 @@ SPH_INLINE vreal v_sqrt(vreal a)
     return r;
 }
 SPH_INLINE vreal v_set(sph_real a) { return a - (vreal){0}; }
+/* whether a pair must be worked off; the scalar form skips those out of reach, whose terms are all 0 */
+SPH_INLINE bool sph_within(vreal r2, sph_real reach2)
+{
+    (void)r2, (void)reach2;
+    return true;
+}
 SPH_INLINE vreal v_from_int(vint a) { return __builtin_convertvector(a, vreal); }
 SPH_INLINE vint v_to_int(vreal a) { return __builtin_convertvector(a, vint); } /* towards 0; |a| must be in range */
 SPH_INLINE vint v_set_int(sph_int a) { return a - (vint){0}; }
@@ -107,6 +116,7 @@ typedef sph_real vreal;
 typedef sph_int vint;
 #define SPH_SCALAR 1
 SPH_INLINE vreal v_sqrt(vreal a) { return SPH_SQRT(a); }
+SPH_INLINE bool sph_within(vreal r2, sph_real reach2) { return !(r2 > reach2); }
 SPH_INLINE vreal v_set(sph_real a) { return a; }
 SPH_INLINE vreal v_from_int(vint a) { return (vreal)a; }
 SPH_INLINE vint v_to_int(vreal a) { return (vint)a; }

@@ -7,6 +7,7 @@
 #include "internal.h"
 #include "fluid.h"
 #include "kernels.h"
+#include "sweep.h"
 
 #define SPH_COOKIE 0x53504801u
 
@@ -353,6 +354,22 @@ static void lay_out_state(const sph_config *c, sph_sim *s, uint32_t b, layout *l
         }
 }
 
+/* where a thread keeps the column sets that the scene wants; returns their reals. s null: measure only */
+static uint32_t place_columns(const sph_config *c, sph_sim *s)
+{
+    uint32_t at = 0;
+    (void)c;
+#define SPH_COLUMN_PLACE(name, ghosts, rows, knob, when)                                                           \
+    if (s)                                                                                                         \
+        s->extra_at[SPH_COLUMN_##name] = at;                                                                       \
+    at += (knob) && (when) ? (rows) * (SPH_TILE_ROOM + ((ghosts) ? 0 : SPH_HOME_ROOM)) : 0;
+    SPH_COLUMN_SETS(SPH_COLUMN_PLACE)
+#undef SPH_COLUMN_PLACE
+    if (s)
+        s->extra_reals = at;
+    return at;
+}
+
 /* everything but the header; s null: measure only */
 static void lay_out(const sph_config *c, const sph_grid *g, sph_sim *s, layout *l)
 {
@@ -363,8 +380,8 @@ static void lay_out(const sph_config *c, const sph_grid *g, sph_sim *s, layout *
     SPH_PLACE(thread, "thread scratch", c->max_threads, sizeof(struct sph_thread));
     if (sph_has_solids(c)) {
         SPH_PLACE(material, "materials", c->max_sets, sizeof(sph_material));
-        SPH_PLACE(solid_scratch, "thread scratch of solids", c->max_threads, sizeof(struct sph_solid_scratch));
     }
+    SPH_PLACE(extra, "thread scratch of columns", (size_t)c->max_threads * place_columns(c, s), sizeof(sph_real));
     for (uint32_t b = 0; b < buffers; b++)
         lay_out_state(c, s, b, l);
     SPH_PLACE(cell, "cell starts", (size_t)g->cells + 2, sizeof(uint32_t));
@@ -466,6 +483,7 @@ sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t by
     sim->arena_bytes = bytes;
     sim->arena_used = need;
     sim->report = (sph_report){SPH_OK, "", "", "", 0, SPH_NO_PARTICLE};
+    sim->columns = sph_column_table;
     sph_make_factors(sim);
     sim->setup_hash = sph_hash_config(&sim->cfg);
     *out = sim;

@@ -6,33 +6,7 @@
 #define SPH_SOLID_H
 
 #include "sweep.h"
-
-/* places of the components of a symmetric tensor */
-static const uint8_t sph_sym[3][3] __attribute__((unused)) =
-#if SPH_DIM == 1
-    {{0}};
-#elif SPH_DIM == 2
-    {{0, 2}, {2, 1}};
-#else
-    {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-#endif
-
-/* the deviatoric stress as a symmetric tensor from what the state keeps */
-SPH_INLINE void sph_deviator(const vreal *kept, vreal *s)
-{
-#if SPH_DIM < 3
-    SPH_UNROLL
-    for (int k = 0; k < SPH_NT; k++)
-        s[k] = kept[k];
-#else
-    s[0] = kept[0];
-    s[1] = kept[1];
-    s[2] = -(kept[0] + kept[1]);
-    s[3] = kept[2];
-    s[4] = kept[3];
-    s[5] = kept[4];
-#endif
-}
+#include "tensor.h"
 
 #define sph_stage_rate SPH_NAME(stage_rate_)
 sph_real sph_stage_rate(const sph_sim *sim); /* sort.c: share of dt by which the stage's sort advances rates */
@@ -41,9 +15,6 @@ sph_real sph_stage_rate(const sph_sim *sim); /* sort.c: share of dt by which the
 enum { SPH_STRESS_CARRY, SPH_STRESS_CORRECT, SPH_STRESS_WHOLE, SPH_STRESS_RK };
 #define sph_advance_stress SPH_NAME(advance_stress_)
 void sph_advance_stress(sph_sim *sim, uint32_t first, uint32_t last, uint32_t how);
-/* dS/dt and -tr L of a home from its sums; raw: sum m_j v_ij (x) K g without the kernel's scale */
-#define sph_stress_rates SPH_NAME(stress_rates_)
-sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho);
 /* damage.c: grows the damage of particles first .. last over dt */
 #define sph_grow_damage SPH_NAME(grow_damage_)
 void sph_grow_damage(sph_sim *sim, uint32_t first, uint32_t last);
@@ -52,8 +23,6 @@ void sph_grow_damage(sph_sim *sim, uint32_t first, uint32_t last);
 double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress);
 
 #define sph_pass_carry SPH_NAME(pass_carry_)
-#define sph_pass_correction SPH_NAME(pass_correction_)
-#define sph_pass_smooth SPH_NAME(pass_smooth_)
-extern const sph_pass sph_pass_carry, sph_pass_correction, sph_pass_smooth;
+extern const sph_pass sph_pass_carry;
 
 #endif

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* adami.c: Adami's walls: pressure, and for no slip velocity, extrapolated from the bodies into wall particles, with W = W(x_wf):
+
+     p_w = (sum p_f W + (g - a_w) . sum rho_f x_wf W)/sum W,   v_w = 2 v_wall - sum v_f W/sum W
+                                                                              (Adami, Hu & Adams 2012 eqs 22-27)
+
+   No array: results wait in the wall's own rates, which are free until the forces, because other chunks may be reading the
+   densities; a local pass then makes them the wall's density and velocity. Cost: a sweep whose homes are wall particles. */
+#include "pair.h"
+
+#if SPH_WITH_WALL_ADAMI
+enum { SUM_W, SUM_PW, SUM_RW, SUM_UW = SUM_RW + SPH_DIM, SUMS = SUM_UW + SPH_DIM };
+
+static bool adami_home(const sph_sim *sim, const sph_set *s)
+{
+    (void)sim;
+    return s->role == SPH_ROLE_GHOST && s->kind == SPH_WALL_ADAMI;
+}
+
+SPH_INLINE void adami_pair(const void *what, uint32_t j, vreal *s)
+{
+    const sph_gather *g = what;
+    const sph_tile *f = g->tile;
+    const bool ratio = *(const bool *)g->own;
+    vreal dx[SPH_DIM];
+    sph_gather_distance(g, j, dx);
+    const vreal w = sph_gather_value(g, dx), rho = v_load(f->rho + j), a = v_load(f->press + j);
+    const vreal p = ratio ? a * rho * rho : a;
+    s[SUM_W] = s[SUM_W] + w;
+    s[SUM_PW] = s[SUM_PW] + p * w;
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        s[SUM_RW + k] = s[SUM_RW + k] + rho * dx[k] * w;
+        s[SUM_UW + k] = s[SUM_UW + k] + v_load(f->v[k] + j) * w;
+    }
+}
+static void adami_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    const bool ratio = !sph_weak_scheme(sim->cfg.scheme);
+    (void)role;
+    sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &ratio);
+}
+
+static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const uint32_t i = t->home_at[h];
+    const sph_set *set = &sim->set[t->home_set[h]];
+    double w = (double)v_fold(t->sum[SUM_W][h]), p = (double)v_fold(t->sum[SUM_PW][h]);
+    const bool wet = w * (double)sim->fac.value * set->mass > 1e-6 * set->rho0;
+    for (int k = 0; k < SPH_DIM; k++) {
+        /* acceleration of the wall, by difference over the step */
+        const double v = sph_wall_velocity(sim, set, (uint32_t)k);
+        const double a = SPH_WITH_MOVING_WALLS && sim->dt > 0 ? (v - sim->now.group[set->group].vel[k]) / sim->dt : 0;
+        p += (sim->cfg.gravity[k] - a) * (double)v_fold(t->sum[SUM_RW + k][h]);
+        b->acc[k][i] = (sph_real)(wet ? 2 * v - (double)v_fold(t->sum[SUM_UW + k][h]) / w : v);
+    }
+    p = wet ? p / w : 0;
+    double d = wet ? sph_density_of(sim, set, sim->cfg.pressure_floor && p < 0 ? 0 : p) : 0;
+    /* a wall that would be denser than any water can be: the fluid has collapsed onto it */
+    b->drho[0][i] = (sph_real)(d > 1 ? 1 : d < -0.5 ? -0.5 : d);
+}
+
+static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    static const sph_sweep w = {adami_home, SPH_BODIES, SPH_SUM_MASK(0, SUMS), false, 0, adami_tile, adami_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
+}
+
+/* what was found becomes the wall's */
+static void adami_copy_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    uint32_t i = chunk * SPH_LOCAL_CHUNK, last = i + SPH_LOCAL_CHUNK < sim->next.count ? i + SPH_LOCAL_CHUNK : sim->next.count;
+    t->work += last - i;
+    for (uint32_t e; i < last; i = e) {
+        e = sph_run_end(b->set[0], i, last);
+        if (b->set[0][i] == SPH_DEAD || !adami_home(sim, &sim->set[b->set[0][i]]))
+            continue;
+        memcpy(b->rho[0] + i, b->drho[0] + i, (e - i) * sizeof(sph_real));
+        for (uint32_t k = 0; k < SPH_DIM && sim->set[b->set[0][i]].no_slip; k++)
+            memcpy(b->vel[k] + i, b->acc[k] + i, (e - i) * sizeof(sph_real));
+    }
+}
+static bool has_adami(const sph_sim *sim) { return sim->has_adami; }
+const sph_pass sph_pass_adami = {"adami walls", sph_sweep_chunks, adami_chunk, NULL, has_adami};
+const sph_pass sph_pass_adami_copy = {"adami copy", sph_local_chunks, adami_copy_chunk, NULL, has_adami};
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* columns.h: the list of column sets: what modules' candidates bring into a tile beside the columns of every tile (x, v, m,
+   rho, press, 1/rho; sweep.h). Scratch holds only the sets that the scene wants.
+     name, 1 if of ghosts (else of bodies and homes), rows, knob, condition on the configuration `c`
+   The loader is sph_load_<name>; columns.c makes the table. */
+#ifndef SPH_COLUMNS_H
+#define SPH_COLUMNS_H
+
+#ifndef SPH_EXTRA_COLUMNS /* tests/extra_columns.h adds one */
+#define SPH_EXTRA_COLUMNS(X)
+#endif
+#define SPH_COLUMN_SETS(X)                                                                                         \
+    X(mirror, 1, 2 * SPH_DIM + 2, SPH_HAS_LAYERED_WALLS, true)                                                     \
+    X(stress, 0, SPH_NL + SPH_NT, SPH_WITH_SOLID, sph_has_solids(c))                                               \
+    X(reference, 0, SPH_DIM + 1, SPH_HAS_TOTAL, sph_is_total(c))                                                   \
+    X(smoothed, 0, SPH_DIM, SPH_HAS_HAT, sph_smooths_strain(c))                                                    \
+    SPH_EXTRA_COLUMNS(X)
+
+enum {
+#define SPH_COLUMN_ENUM(name, ghosts, rows, knob, when) SPH_COLUMN_##name,
+    SPH_COLUMN_SETS(SPH_COLUMN_ENUM)
+#undef SPH_COLUMN_ENUM
+        SPH_COLUMN_COUNT
+};
+
+#endif

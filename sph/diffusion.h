@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* diffusion.h: density diffusion (Molteni & Colagrossi 2009; Fourtakas et al. 2019), between bodies only:
+     drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + 0.01 h^2)
+   with rho_H the difference that gravity makes between the two places (HYDROSTATIC), or 0. */
+#ifndef SPH_DIFFUSION_H
+#define SPH_DIFFUSION_H
+
+#include "term.h"
+
+SPH_INLINE void sph_diffusion(const sph_choice *c, const sph_factors *f, const sph_home *h, sph_near *p, vreal *s)
+{
+    p->diff = v_set(0);
+    if (!sph_diffusive(c->diffusion) || c->wall)
+        return;
+    vreal dr = h->rho - p->rho;
+    if (SPH_IS(c->diffusion, HYDROSTATIC)) {
+        SPH_UNROLL
+        for (int k = 0; k < SPH_DIM; k++)
+            dr = dr - p->dx[k] * f->hydro[k];
+    }
+    /* (rho_j - rho_i) x_ji . grad W = (rho_i - rho_j) r^2 g; the sum rho_i + rho_j in inv is taken out again */
+    p->diff = dr * (p->r2 * p->inv * (h->rho + p->rho)) * p->mg * p->inv_rho * f->diff;
+    s[SUM_DRHO] = s[SUM_DRHO] + (sph_weak_scheme(c->scheme) ? p->diff * h->inv_rho : p->diff);
+}
+
+#endif

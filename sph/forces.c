@@ -1,0 +1,390 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* forces.c: the loop over pairs that makes accelerations and rates: geometry, kernel, then one plain call a term. Each term is in
+   its own header, with its equations:
+
+     continuity.h   rate of density             viscosity.h    artificial, Morris            diffusion.h    of density
+     pressure.h     force of the pressure       stress.h       force of the stress, and the velocity gradient
+     reference.h    reference positions, contact of bodies     xsph.h    drift beside the velocity     pair_power.h   the books
+
+   The same text is compiled with the choices as constants (a line of SPH_FAST_FORCES each) and with choices read at run time (two
+   general forms: without solids and with them). Arrays: none but the state's acc, drho, xsph and the powers of the books.
+   Cost: one sweep a force evaluation. */
+#include "forces.h"
+#include "boundary.h"
+#include "continuity.h"
+#include "diffusion.h"
+#include "pair_power.h"
+#include "pressure.h"
+#include "reference.h"
+#include "stress.h"
+#include "viscosity.h"
+#include "xsph.h"
+
+/* ---- the loop ---- */
+
+/* a home with all that the terms want to know of it and of the candidates; what is not chosen is not read */
+typedef struct at_home {
+    const sph_choice *c;
+    const sph_factors *f;
+    const sph_tile *tile;
+    const sph_mirror_tile *mirror;
+    const sph_stress_tile *stress;
+    const sph_reference_tile *reference;
+    const sph_real *smoothed;
+    const sph_home *home;
+    const sph_stress_home *solid;
+    const sph_reference_home *was;
+} at_home;
+
+/* x_ij, K and |K|; returns false where a scalar machine may skip the pair: all terms are 0 there */
+SPH_INLINE bool geometry(const at_home *o, sph_near *p)
+{
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        p->kx[k] = p->dx[k] = o->home->x[k] - v_load(o->tile->x[k] + p->j);
+    p->r2 = sph_dot(p->dx, p->dx);
+    vreal k2 = p->r2;
+    if (SPH_HAS_TOTAL && o->c->solid && o->c->total && !o->c->wall) {
+        vint same;
+        vreal to[SPH_DIM];
+        sph_reference_distance(o->was, o->reference, p->j, p->dx, to, &same, &p->apart);
+        k2 = sph_dot(to, to);
+        SPH_UNROLL
+        for (int k = 0; k < SPH_DIM; k++)
+            p->kx[k] = v_where(~p->apart, to[k]);
+    }
+    if (!sph_within(k2, o->f->reach2))
+        return false;
+    p->q = v_sqrt(k2) * o->f->inv_h;
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        p->dv[k] = p->dw[k] = o->home->v[k] - v_load(o->tile->v[k] + p->j);
+    p->vr = sph_dot(p->dv, p->dx);
+    return true;
+}
+
+/* what the kernel and the candidates' own columns give to every term */
+SPH_INLINE void kernel(const at_home *o, sph_near *p)
+{
+    p->mg = k_slope(o->c->kernel, p->q) * v_load(o->tile->m + p->j);
+    p->rho = v_load(o->tile->rho + p->j);
+    p->press = v_load(o->tile->press + p->j);
+    p->inv_rho = sph_needs_inv_rho(o->c->scheme, o->c->diffusion) ? v_load(o->tile->inv_rho + p->j) : p->rho;
+}
+
+/* what pressure, contact and viscosity push along x_ij, and Morris's drag */
+SPH_INLINE void momentum(const sph_choice *c, const sph_near *p, vreal *s)
+{
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        s[SUM_ACC + k] = s[SUM_ACC + k] + p->force * p->dx[k];
+        if (SPH_IS(c->viscosity, MORRIS))
+            s[SUM_ACC + k] = s[SUM_ACC + k] - p->fm * p->dw[k];
+    }
+}
+
+/* one group of lanes: everything that candidates j ... give to the home */
+SPH_INLINE void pair(const void *what, uint32_t j, vreal *s)
+{
+    const at_home *const o = what;
+    const sph_choice *const c = o->c;
+    sph_near p;
+    p.tile = o->tile;
+    p.j = j;
+    p.force = v_set(0);
+    p.apart = v_set_int(0);
+
+    if (!geometry(o, &p))
+        return;
+    kernel(o, &p);
+    sph_continuity(c, o->f, o->home, &p, s);
+    sph_stress_force(c, o->f, o->home, o->solid, o->stress, o->smoothed, &p, s);
+    sph_pressure_force(c, o->home, &p);
+    sph_contact(c, o->f, o->home, &p);
+    sph_inverse_distance(c, o->f, o->home, &p);
+    sph_viscosity(c, o->f, o->home, o->mirror, &p, s);
+    momentum(c, &p, s);
+    sph_diffusion(c, o->f, o->home, &p, s);
+    sph_xsph(c, o->home, &p, s);
+    sph_pair_power(c, &p, s);
+}
+
+/* the sums that these choices take */
+SPH_INLINE uint32_t sums_of(const sph_choice *c)
+{
+    return SUM_MASK(DRHO) | SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_SOLID && c->solid ? SUM_MASK(GRADIENT) : 0) |
+           (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
+           (SPH_WITH_BOOKS && c->books ? SUM_MASK(VISCOUS) | SUM_MASK(DIFFUSED) | (c->wall ? SUM_MASK(WALL) : 0) : 0);
+}
+
+SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const sph_home home = sph_spread_home(&t->home, h);
+    at_home o = {c, f, c->wall ? &t->ghosts : &t->bodies, NULL, NULL, NULL, NULL, &home, NULL, NULL};
+    if (SPH_HAS_LAYERED_WALLS && c->wall)
+        o.mirror = sph_mirror_of(sim, t);
+    sph_stress_home solid;
+    if (SPH_WITH_SOLID && c->solid) {
+        o.stress = sph_stress_tile_of(sim, t);
+        o.smoothed = c->hat ? sph_smoothed_of(sim, t) : NULL;
+        solid = sph_spread_stress(c, sph_stress_homes_of(sim, t), c->hat ? sph_smoothed_homes_of(sim, t) : NULL, h);
+        o.solid = &solid;
+    }
+    sph_reference_home was;
+    if (SPH_HAS_TOTAL && c->solid && c->total) {
+        o.reference = sph_reference_of(sim, t);
+        was = sph_spread_reference(sph_reference_homes_of(sim, t), h);
+        o.was = &was;
+    }
+    sph_sum_home(t, h, o.tile->n, sums_of(c), pair, &o);
+}
+
+/* ---- general forms: every choice read at run time ---- */
+
+/* the form that covers all fluids */
+static __attribute__((noinline)) void force_fluid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    sph_choice own = *c;
+    own.solid = own.total = own.hat = false;
+    own.repulsion = 0;
+    own.wall = SPH_HAS_LAYERED_WALLS && own.wall;
+    if (SPH_SMALL)
+        force_home(&own, &sim->fac, sim, t, h);
+    else if (SPH_HAS_LAYERED_WALLS && own.wall) {
+        own.wall = true;
+        force_home(&own, &sim->fac, sim, t, h);
+    } else {
+        own.wall = false;
+        force_home(&own, &sim->fac, sim, t, h);
+    }
+}
+
+/* the form that covers all scenes with solids */
+static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    sph_choice own = *c;
+    own.solid = true;
+    own.total = SPH_HAS_TOTAL && own.total;
+    own.hat = SPH_HAS_HAT && own.hat;
+    own.repulsion = SPH_HAS_REPULSION ? own.repulsion : 0;
+    own.wall = SPH_HAS_LAYERED_WALLS && own.wall;
+    if (SPH_SMALL)
+        force_home(&own, &sim->fac, sim, t, h);
+    else if (SPH_HAS_LAYERED_WALLS && own.wall) {
+        own.wall = true;
+        force_home(&own, &sim->fac, sim, t, h);
+    } else {
+        own.wall = false;
+        force_home(&own, &sim->fac, sim, t, h);
+    }
+}
+
+/* ---- fast paths: the same text with the choices as constants; a line adds a path ---- */
+
+/* standard scheme, no beta, no XSPH: name, kernel, viscosity, diffusion, books, wall, solid, exponent of the artificial stress,
+   reference positions */
+#define SPH_FAST_FORCES(X)                                                                                         \
+    X(w2, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, false, 0, false)                        \
+    X(w2_h, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, false, false, false, 0, false)                       \
+    X(cubic, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, false, 0, false)                           \
+    X(s_cubic, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 0, false)                \
+    X(s_cubic_r, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 4, false)              \
+    X(s_w2, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 0, false)             \
+    X(s_w2_r, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 4, false)           \
+    X(s_w2_t, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 0, SPH_HAS_TOTAL)
+
+#define SPH_FAST_FN(name, kernel_, visc, diff, books_, wall_, solid_, power, total_)                               \
+    static __attribute__((noinline, unused)) void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)  \
+    {                                                                                                              \
+        static const sph_choice c = {.kernel = kernel_, .viscosity = visc, .diffusion = diff, .books = books_,     \
+                                     .wall = wall_, .solid = solid_, .total = total_, .repulsion = power};         \
+        const sph_factors own = sim->fac;                                                                          \
+        for (uint32_t h = 0; h < homes; h++)                                                                       \
+            if (!(wall_) || sph_is_body(&sim->set[t->home_set[h]]))                                                \
+                force_home(&c, &own, sim, t, h);                                                                   \
+    }
+SPH_FAST_FORCES(SPH_FAST_FN)
+#undef SPH_FAST_FN
+
+/* the choices of a scene, of bodies or of ghosts */
+static sph_choice choice_of(const sph_sim *sim, bool wall)
+{
+    const sph_config *c = &sim->cfg;
+    const bool hat = sph_smooths_strain(c);
+    return (sph_choice){c->kernel, c->scheme, c->viscosity, c->diffusion, wall, c->beta != 0, sph_uses_xsph(c) && !hat,
+                        sph_keeps_books(c), sph_has_solids(c), sph_is_total(c), hat, sph_repels(c) ? c->stress_exponent : 0};
+}
+
+/* the fast path of these choices; false if there is none */
+static bool force_fast(const sph_sim *sim, const sph_choice *c, sph_thread *t, uint32_t homes)
+{
+    if (!SPH_WITH_FAST_PATHS || !SPH_IS(c->scheme, STANDARD) || c->beta || c->xsph || c->hat)
+        return false;
+#define SPH_FAST_TRY(name, kernel_, visc, diff, books_, wall_, solid_, power, total_)                              \
+    if (c->kernel == (kernel_) && c->viscosity == (visc) && c->diffusion == (diff) && c->books == (books_) &&      \
+        c->wall == (wall_) && c->solid == (solid_) && c->repulsion == (power) && c->total == (total_)) {           \
+        force_##name(sim, t, homes);                                                                               \
+        return true;                                                                                               \
+    }
+    SPH_FAST_FORCES(SPH_FAST_TRY)
+#undef SPH_FAST_TRY
+    return false;
+}
+
+/* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over bodies only; its acceleration is not used. */
+static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    const sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
+    if (role != SPH_ROLE_FORCE_WALL && force_fast(sim, &c, t, homes))
+        return;
+    for (uint32_t h = 0; h < homes; h++) {
+        if (role != SPH_ROLE_FLUID && !sph_is_body(&sim->set[t->home_set[h]]))
+            continue;
+        if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
+            sph_boundary_force(sim, t, h);
+        else if (SPH_WITH_SOLID && c.solid)
+            force_solid(&c, sim, t, h);
+        else
+            force_fluid(&c, sim, t, h);
+    }
+}
+
+/* ---- what becomes of the sums ---- */
+
+static bool is_force_home(const sph_sim *sim, const sph_set *s)
+{
+    (void)sim;
+    return sph_is_body(s) || (s->role == SPH_ROLE_GHOST && s->compressible && s->kind == SPH_WALL_GHOST);
+}
+
+SPH_INLINE sph_real larger(sph_real a, sph_real b) { return a < b ? b : a; }
+
+/* the host's body force on a home; returns its power per unit mass */
+static sph_real add_body_force(const sph_sim *sim, const sph_thread *t, uint32_t h, sph_real *acc)
+{
+    const sph_config *c = &sim->cfg;
+    const sph_buffer *b = &sim->buf[sim->dst];
+    double x[SPH_DIM], v[SPH_DIM], add[SPH_DIM];
+    sph_real power = 0;
+    for (int k = 0; k < SPH_DIM; k++) {
+        x[k] = c->lo[k] + (double)b->pos[k][t->home_at[h]] * sim->grid.quantum;
+        v[k] = (double)t->home.v[k][h];
+        add[k] = 0;
+    }
+    c->body_force(c->body_ctx, sim->next.time, x, v, add);
+    for (int k = 0; k < SPH_DIM; k++) {
+        acc[k] += (sph_real)add[k];
+        power += (sph_real)add[k] * t->home.v[k][h];
+    }
+    return power;
+}
+
+/* what the scene asked for besides forces: XSPH velocity, boundary forces, the body force, powers for the books */
+static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc)
+{
+    const sph_factors *f = &sim->fac;
+    const sph_config *c = &sim->cfg;
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const uint32_t i = t->home_at[h];
+    sph_real body = 0;
+    for (uint32_t k = 0; sph_uses_xsph(c) && !sph_smooths_strain(c) && k < SPH_DIM; k++)
+        b->xsph[k][i] = v_fold(t->sum[SUM_XSPH + k][h]) * (f->value * (sph_real)(2 * c->xsph));
+    for (uint32_t k = 0; SPH_HAS_FORCE_WALLS && sim->has_force_wall && k < SPH_DIM; k++)
+        acc[k] += t->sum[SUM_BOUNDARY][h][k];
+    if (SPH_WITH_BODY_FORCE && c->body_force)
+        body = add_body_force(sim, t, h, acc);
+    if (sph_keeps_books(c)) { /* powers per unit mass of this particle */
+        sim->power[0][i] = v_fold(t->sum[SUM_VISCOUS][h]) * f->slope;
+        sim->power[1][i] = t->sum[SUM_BOUNDARY][h][SPH_DIM] - v_fold(t->sum[SUM_WALL][h]) * f->slope;
+        sim->power[2][i] = v_fold(t->sum[SUM_DIFFUSED][h]) * f->slope;
+        sim->power[3][i] = body;
+    }
+}
+
+/* along the axes on which a set is held it feels no force; what moves it does work against it (and on its inertia) */
+static void hold(sph_sim *sim, const sph_set *set, uint32_t i, sph_real *acc)
+{
+    const uint32_t held = sph_held(sim, set);
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        if (!(held >> k & 1))
+            continue;
+        if (sph_keeps_books(&sim->cfg))
+            sim->power[1][i] -= acc[k] * (sph_real)sph_wall_velocity(sim, set, k);
+        acc[k] = 0;
+        if (sph_uses_xsph(&sim->cfg))
+            sim->buf[sim->dst].xsph[k][i] = 0;
+    }
+}
+
+/* rate of a home's relative density from its sums; solids' stress rates come with it */
+static sph_real finish_rates(const sph_sim *sim, const sph_thread *t, uint32_t h)
+{
+    const sph_factors *f = &sim->fac;
+    const sph_set *set = &sim->set[t->home_set[h]];
+    sph_real d = v_fold(t->sum[SUM_DRHO][h]) * f->slope * set->inv_rho0_r;
+    if (f->rate_by_density)
+        d *= t->home.rho[h];
+    if (sph_has_solids(&sim->cfg)) {
+        sph_real raw[SPH_NL];
+        for (uint32_t k = 0; k < SPH_NL; k++)
+            raw[k] = v_fold(t->sum[SUM_GRADIENT + k][h]) * f->slope;
+        d += sph_stress_rates(sim, set, t->home_at[h], raw, t->home.rho[h]) * t->home.rho[h] * set->inv_rho0_r;
+    }
+    return f->continuity ? d : 0;
+}
+
+/* forces and rates of one particle from its sums */
+static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const sph_factors *f = &sim->fac;
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const uint32_t i = t->home_at[h];
+    const sph_set *set = &sim->set[t->home_set[h]];
+    sph_real acc[SPH_DIM], a2 = 0, v2 = 0;
+    const sph_real d = b->drho[0][i] = finish_rates(sim, t, h);
+    if (!sph_is_body(set))
+        return;
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        acc[k] = f->gravity[k] - v_fold(t->sum[SUM_ACC + k][h]) * f->slope;
+    if ((SPH_HAS_EXTRAS && f->extras) || (SPH_HAS_FORCE_WALLS && sim->has_force_wall))
+        finish_extras(sim, t, h, acc);
+    if (SPH_HAS_HELD && sph_held(sim, set))
+        hold(sim, set, i, acc);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        b->acc[k][i] = acc[k];
+        a2 += acc[k] * acc[k];
+        v2 += t->home.v[k][h] * t->home.v[k][h];
+    }
+    t->peaks.mu = larger(t->peaks.mu, v_fold_max(t->sum[SUM_MU][h]) * (2 * t->home.rho[h]));
+    t->peaks.acc = larger(t->peaks.acc, a2);
+    t->peaks.speed = larger(t->peaks.speed, v2);
+    if (!(a2 + d * d < SPH_LIMIT_SQUARE)) /* also catches not-a-number */
+        sph_fail_note(t, SPH_NOT_FINITE, sim->buf[sim->src].id[0][b->id[0][i]], (double)a2);
+}
+
+/* ---- the pass ---- */
+
+static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_choice c = choice_of(sim, true);
+    const sph_sweep w = {is_force_home,
+                         SPH_BODIES | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL,
+                         sums_of(&c) | (c.books || sim->has_force_wall ? SUM_MASK(BOUNDARY) : 0),
+                         sph_needs_inv_rho(c.scheme, c.diffusion),
+                         (SPH_HAS_LAYERED_WALLS && sph_viscous(c.viscosity) ? 1u << SPH_COLUMN_mirror : 0) |
+                             (c.solid ? 1u << SPH_COLUMN_stress : 0) | (c.total ? 1u << SPH_COLUMN_reference : 0) |
+                             (c.hat ? 1u << SPH_COLUMN_smoothed : 0),
+                         force_tile,
+                         force_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
+}
+
+static sph_status force_end(sph_sim *sim)
+{
+    sim->next.peaks.acc = SPH_SQRT(sim->next.peaks.acc);
+    sim->next.peaks.speed = SPH_SQRT(sim->next.peaks.speed);
+    return SPH_OK;
+}
+const sph_pass sph_pass_force = {"force", sph_sweep_chunks, force_chunk, force_end, NULL};

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* mirror.c: the columns of ghosts (mirror.h): normals, velocities for the viscosity, depths. No array. */
+#include "mirror.h"
+
+#if SPH_HAS_LAYERED_WALLS
+/* normal . (wall face - home cell), with the wall where it is now, and its image (m) */
+static double plane_of(const sph_run *r)
+{
+    const double q = r->sim->grid.quantum;
+    double plane = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const double sign = (double)r->im->sign[k], moved = (double)sph_wall_moved(r->sim, r->set, k) * q;
+        const double o = sign * (r->set->origin[k] + moved) + (double)(r->im->shift[k] - r->origin[k]) * q;
+        plane += sign * r->set->normal[k] * o;
+    }
+    return plane;
+}
+
+void sph_load_mirror(const sph_run *r, sph_real *to, uint32_t row)
+{
+    const bool mirror = SPH_IS(r->set->kind, WALL_GHOST);
+    const double plane = mirror ? plane_of(r) : 0;
+    sph_real *const u0 = to + (size_t)SPH_DIM * row, *const depth = u0 + (size_t)SPH_DIM * row, *const vis = depth + row;
+    for (uint32_t j = 0; j < r->n; j++) {
+        double x = 0;
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            const double nk = mirror ? (double)r->im->sign[k] * r->set->normal[k] : 0;
+            if (mirror)
+                x += nk * (double)r->tile->x[k][r->at + j];
+            to[k * row + j] = (sph_real)nk;
+            u0[k * row + j] = mirror || !r->set->no_slip ? r->tile->v[k][r->at + j] : r->b->vel[k][r->first + j] * r->im->flip[k];
+        }
+        depth[j] = mirror ? (sph_real)(plane - x > 0 ? plane - x : 0) : 0;
+        vis[j] = r->set->no_slip ? 1 : 0;
+    }
+}
+#endif

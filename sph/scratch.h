@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* scratch.h: the scratch of a thread: tiles of candidates and the sums of homes (sweep.h), blocks of particles (sort.c), and
+   what a pass gathers. Its capacities are part of the definition of the bits. */
+#ifndef SPH_SCRATCH_H
+#define SPH_SCRATCH_H
+
+#include "internal.h"
+
+#define SPH_TILE (SPH_DIM == 1 ? 64 : SPH_DIM == 2 ? 128 : 384)
+#define SPH_STRIDE (SPH_DIM == 1 ? 8u : SPH_DIM == 2 ? 24u : 48u) /* room behind a tile, for copies of fixed length */
+#define SPH_TILE_ROOM (SPH_TILE + SPH_STRIDE)
+#define SPH_HOMES 16u /* a multiple of 8 */
+#define SPH_HOME_ROOM (SPH_HOMES + SPH_LANES)
+#define SPH_SUMS ((SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12) + (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0))
+#define SPH_SWEEP_CHUNK 32u  /* cells */
+#define SPH_SLICE_CHUNK 1u   /* cells, in a step that is done in slices */
+#define SPH_LOCAL_CHUNK 256u /* particles */
+
+/* what every candidate brings */
+typedef struct sph_tile {
+    uint32_t n;
+    sph_real x[SPH_DIM][SPH_TILE_ROOM];  /* m, from the home cell's low corner */
+    sph_real v[SPH_DIM][SPH_TILE_ROOM];  /* m/s */
+    sph_real m[SPH_TILE_ROOM];           /* kg */
+    sph_real rho[SPH_TILE_ROOM];         /* kg/m^3 */
+    sph_real press[SPH_TILE_ROOM];       /* standard schemes: p/rho^2; others: p */
+    sph_real inv_rho[SPH_TILE_ROOM];     /* 1/rho, where a formula needs it */
+} sph_tile;
+
+/* what a boundary-force particle brings */
+typedef struct sph_points {
+    uint32_t n;
+    sph_real x[SPH_DIM][SPH_TILE_ROOM];
+    uint8_t set[SPH_TILE_ROOM];
+} sph_points;
+
+/* what the sort works on: new positions (and where asked, velocities and densities) of a block of particles */
+#define SPH_BLOCK 64u
+typedef struct sph_block {
+    sph_pos pos[SPH_DIM][SPH_BLOCK + 8];
+    sph_real vel[SPH_DIM][SPH_BLOCK + 8];
+    sph_real rho[SPH_BLOCK + 8];
+    uint32_t to[SPH_BLOCK];  /* the count: its cell; the scatter: its place */
+    uint8_t gone[SPH_BLOCK]; /* 1: dropped silently, 2: left the domain */
+} sph_block;
+
+/* scratch of a thread, so that no function needs a large stack */
+typedef struct sph_thread {
+    union {
+        struct { /* sweeps */
+            sph_tile home, bodies, ghosts;
+            sph_points points;
+            uint32_t home_at[SPH_HOMES]; /* index of the home particle */
+            uint8_t home_set[SPH_HOMES];
+            sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */
+        };
+        sph_block block;                /* the sort */
+        uint8_t near[SPH_LOCAL_CHUNK];  /* 1: particle of the chunk may be inside a wall */
+    };
+    /* what a pass gathers over its chunks: order does not matter for any of these */
+    uint64_t work, pairs;
+    sph_peaks peaks;
+    sph_fail fail;
+    uint32_t crossed, put_back, reflected, left, removed, widest;
+} sph_thread;
+
+_Static_assert(sizeof(sph_thread) <= SPH_SCRATCH_BYTES, "SPH_SCRATCH_BYTES in sph.h is too small");
+
+#endif

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* smoothing.c: smoothed velocities for the strain rates of solids, u_i = xsph sum (m_j/rho_mean) (v_j - v_i) W (Gray 2001 eqs
+   2.22, 5.10). Array: xsph (state). Cost: a sweep before the forces. */
+#include "smoothed.h"
+
+#if SPH_HAS_HAT
+void sph_load_smoothed(const sph_run *r, sph_real *to, uint32_t row)
+{
+    for (uint32_t j = 0; j < r->n; j += SPH_W)
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            const uint32_t i = r->first + j;
+            v_store(to + k * row + j, sph_seen_vector(r, k, v_load(r->b->vel[k] + i) + v_load(r->b->xsph[k] + i)));
+        }
+}
+
+SPH_INLINE void smooth_pair(const void *what, uint32_t j, vreal *s)
+{
+    const sph_gather *g = what;
+    const sph_tile *home = &g->t->home, *c = g->tile;
+    vreal dx[SPH_DIM];
+    sph_gather_distance(g, j, dx);
+    const vreal w = sph_gather_value(g, dx) * v_load(c->m + j) / (home->rho[g->h] + v_load(c->rho + j));
+    for (int k = 0; k < SPH_DIM; k++)
+        s[k] = s[k] + w * (v_load(c->v[k] + j) - home->v[k][g->h]);
+}
+static void smooth_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    (void)role;
+    sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SPH_DIM), smooth_pair, NULL);
+}
+
+static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const uint32_t i = t->home_at[h], held = sph_held(sim, &sim->set[t->home_set[h]]);
+    const sph_real scale = sim->fac.value * (sph_real)(2 * sim->cfg.xsph);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        sim->buf[sim->dst].xsph[k][i] = held >> k & 1 ? 0 : v_fold(t->sum[k][h]) * scale;
+}
+
+static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    static const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SPH_DIM), false, 0, smooth_tile, smooth_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
+}
+static bool smooths(const sph_sim *sim) { return sph_smooths_strain(&sim->cfg); }
+const sph_pass sph_pass_smooth = {"smoothing", sph_sweep_chunks, smooth_chunk, NULL, smooths};
+#endif

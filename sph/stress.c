@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* stress.c: the stress of solids: what a particle brings to a tile (T, and R on tension), and the rates of the deviatoric stress
+   from the velocity gradient L. The pair formulas are in stress.h.
+
+     rates      dS/dt = 2 mu (e - tr e/3) + W S - S W,  e = (L + L^T)/2, W = (L - L^T)/2   (Jaumann; Gray 2001 eqs 5.7-5.9)
+
+   Arrays: stress and dstress (1, 3 or 5 reals each, in every state buffer). Cost: the sums of the force sweep. */
+#include "stress.h"
+
+#if SPH_WITH_SOLID
+#include "eos_lanes.h"
+
+/* ---- columns ---- */
+
+/* Artificial stress of a symmetric stress tensor, positive in tension: r = eps w (its tensile part), w being 1/rho^2 or 1. By
+   components: each component where it is positive (Monaghan 2000). On principal axes: sum over the principal stresses above 0
+   of eps w sigma n (x) n. In 2-D with m = (xx + yy)/2, a = (xx - yy)/2 and d = sqrt(a^2 + xy^2) they are m +- d, and
+   n (x) n = (1 +- [a xy; xy -a]/d)/2; where d vanishes the axes are not defined, but the difference of the two tensile parts
+   is at most 2 d, so a floor `small` under the divisor is all it takes (Gray 2001 section 5.4 adds a stress difference). */
+SPH_INLINE void tensile_part_2d(const vreal *sigma, vreal small, vreal *r)
+{
+    const vreal half = v_set((sph_real)0.5), xx = sigma[0], yy = sigma[SPH_DIM > 1], xy = sigma[SPH_NT - 1];
+    const vreal m = (xx + yy) * half, a = (xx - yy) * half;
+    const vreal d = v_sqrt(a * a + xy * xy), one = v_pos(m + d), two = v_pos(m - d);
+    const vreal mean = (one + two) * half, diff = (one - two) * half / v_max(d, small);
+    r[0] = mean + diff * a;
+    r[SPH_DIM > 1] = mean - diff * a;
+    r[SPH_NT - 1] = diff * xy;
+}
+SPH_INLINE void tensile_part_3d(const vreal *sigma, vreal *r)
+{
+    vreal a[3][3], e[3][3], pos[3];
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++)
+            a[k][l] = sigma[sph_sym[k][l]];
+    sph_principal(a, e);
+    for (int k = 0; k < 3; k++)
+        pos[k] = v_pos(a[k][k]);
+    for (int k = 0; k < 3; k++)
+        for (int l = k; l < 3; l++)
+            r[sph_sym[k][l]] = pos[0] * e[k][0] * e[l][0] + pos[1] * e[k][1] * e[l][1] + pos[2] * e[k][2] * e[l][2];
+}
+SPH_INLINE void tensile_part(const vreal *sigma, bool principal, vreal small, vreal *r)
+{
+    for (int k = 0; k < SPH_NT && (!principal || SPH_DIM == 1); k++)
+        r[k] = v_pos(sigma[k]);
+    if (principal && SPH_DIM == 2)
+        tensile_part_2d(sigma, small, r);
+    if (principal && SPH_DIM == 3)
+        tensile_part_3d(sigma, r);
+}
+
+/* sigma of W particles from index i on: -p I and, of solids, the deviator, after damage (Gray 2001 eqs 5.33, 5.34) */
+SPH_INLINE void stress_at(const sph_run *r, uint32_t i, vreal excess, vreal *s)
+{
+    const bool solid = sph_is_solid(r->set);
+    vreal p = sph_pressure_of(r->set->eos, r->sim->cfg.pressure_floor && !solid, v_set(r->set->b_r), excess), kept[SPH_NS];
+    SPH_UNROLL
+    for (int k = 0; k < SPH_NS; k++)
+        kept[k] = v_load(r->b->stress[k] + i);
+    if (SPH_HAS_DAMAGE && r->b->damage[0]) {
+        const vreal whole = 1 - sph_power_of_dim(v_load(r->b->damage[0] + i));
+        p = v_select(v_less(p, v_set(0)), whole * p, p);
+        SPH_UNROLL
+        for (int k = 0; k < SPH_NS; k++)
+            kept[k] = kept[k] * whole;
+    }
+    sph_deviator(kept, s);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        s[k] = s[k] - p;
+}
+
+/* T with corrected gradients: -sigma M^-T over rho (standard) or 1 (weak) */
+SPH_INLINE void corrected_stress(const sph_run *r, uint32_t i, vreal rho, const vreal *s, vreal *t)
+{
+    const vreal scale = sph_weak_scheme(r->sim->cfg.scheme) ? v_set(-1) : -1 / rho;
+    for (int k = 0; k < SPH_DIM; k++)
+        for (int l = 0; l < SPH_DIM; l++) {
+            vreal sum = v_set(0);
+            for (int m = 0; m < SPH_DIM; m++)
+                sum = sum + s[sph_sym[k][m]] * v_load(r->sim->corr[l * SPH_DIM + m] + i);
+            t[k * SPH_DIM + l] = sum * scale;
+        }
+}
+
+/* R of W particles, where the scene has it */
+SPH_INLINE void load_repulsion(const sph_run *r, const vreal *s, vreal w, sph_real *to, uint32_t row)
+{
+    const sph_sim *sim = r->sim;
+    vreal part[SPH_NT];
+    tensile_part(s, sim->cfg.artificial_stress == SPH_PRINCIPAL, v_set(r->set->b_r * (sph_real)1e-9), part);
+    const vreal scale = w * (sph_is_solid(r->set) ? sim->fac.repulsion : 0);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t l = k; l < SPH_DIM; l++) {
+            const uint32_t n = sph_sym[k][l];
+            v_store(to + (SPH_NL + n) * row, sph_seen_tensor(r, k, l, part[n] * scale));
+        }
+}
+
+void sph_load_stress(const sph_run *r, sph_real *to, uint32_t row)
+{
+    const sph_config *c = &r->sim->cfg;
+    const bool weak = sph_weak_scheme(c->scheme), corrects = sph_corrects(c) && sph_is_solid(r->set);
+    for (uint32_t j = 0; j < r->n; j += SPH_W) {
+        const uint32_t i = r->first + j;
+        const vreal e = v_load(r->b->rho[0] + i), rho = (1 + e) * r->set->rho0_r;
+        vreal s[SPH_NT], t[SPH_NL];
+        stress_at(r, i, e, s);
+        const vreal w = weak ? v_set(1) : 1 / (rho * rho);
+        if (sph_repels(c))
+            load_repulsion(r, s, w, to + j, row);
+        SPH_UNROLL_MANY
+        for (uint32_t k = 0; k < SPH_NL; k++)
+            t[k] = -(s[sph_sym[k / SPH_DIM][k % SPH_DIM]] * w);
+        if (corrects)
+            corrected_stress(r, i, rho, s, t);
+        SPH_UNROLL_MANY
+        for (uint32_t k = 0; k < SPH_NL; k++)
+            v_store(to + k * row + j, sph_seen_tensor(r, k / SPH_DIM, k % SPH_DIM, t[k]));
+    }
+}
+
+/* ---- rates ---- */
+
+/* row and column of the components that are kept */
+static const uint8_t kept_at[SPH_NS][2] =
+#if SPH_DIM == 1
+    {{0, 0}};
+#elif SPH_DIM == 2
+    {{0, 0}, {1, 1}, {0, 1}};
+#else
+    {{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}};
+#endif
+
+/* the deviatoric stress of one particle as a full tensor; in 2-D and 1-D of the plane or line only */
+static void tensor_of(const sph_buffer *b, uint32_t i, sph_real (*s)[SPH_DIM])
+{
+    for (uint32_t k = 0; k < SPH_NS; k++)
+        s[kept_at[k][0]][kept_at[k][1]] = s[kept_at[k][1]][kept_at[k][0]] = b->stress[k][i];
+    if (SPH_DIM == 3)
+        s[SPH_DIM - 1][SPH_DIM - 1] = -(b->stress[0][i] + b->stress[SPH_NS > 1][i]);
+}
+
+/* dS/dt of a stress in a velocity gradient */
+static void jaumann(const sph_real (*l)[SPH_DIM], const sph_real (*s)[SPH_DIM], sph_real mu, sph_real (*rate)[SPH_DIM])
+{
+    sph_real trace = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        trace += l[k][k];
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = k; c < SPH_DIM; c++) {
+            sph_real turn = 0; /* (W S - S W)_kc; S is symmetric, W antisymmetric */
+            for (uint32_t m = 0; m < SPH_DIM; m++)
+                turn += (sph_real)0.5 * ((l[k][m] - l[m][k]) * s[m][c] + (l[c][m] - l[m][c]) * s[m][k]);
+            const sph_real e = (sph_real)0.5 * (l[k][c] + l[c][k]) - (k == c ? trace / 3 : 0);
+            rate[k][c] = rate[c][k] = 2 * mu * e + turn;
+        }
+}
+
+/* Kick-drift-kick and leap-frog take rates once in a step dt, from the velocity of its middle at the places of its end. What
+   stands here turns them into those of the middle to second order, so that finite strains and turns are followed to dt^2:
+   L = G + dt/2 G G of the gradient G found, and S half a step on where S turns. */
+static void to_the_middle(sph_real dt, sph_real mu, sph_real (*l)[SPH_DIM], sph_real (*s)[SPH_DIM])
+{
+    sph_real g[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM];
+    memcpy(g, l, sizeof g);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = 0; c < SPH_DIM; c++) {
+            sph_real sum = 0;
+            for (uint32_t m = 0; m < SPH_DIM; m++)
+                sum += g[k][m] * g[m][c];
+            l[k][c] += (sph_real)0.5 * dt * sum;
+        }
+    jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, mu, rate);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = 0; c < SPH_DIM; c++)
+            s[k][c] += (sph_real)0.5 * dt * rate[k][c];
+}
+
+/* L of a home from its sums (raw), with corrected gradients or without */
+static void velocity_gradient(const sph_sim *sim, uint32_t i, const sph_real *raw, sph_real rho, bool corrects,
+                              sph_real (*l)[SPH_DIM])
+{
+    const bool weak = sph_weak_scheme(sim->cfg.scheme);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = 0; c < SPH_DIM; c++) {
+            sph_real sum = weak ? raw[k * SPH_DIM + c] : raw[k * SPH_DIM + c] / rho;
+            if (corrects) {
+                sum = 0;
+                for (uint32_t m = 0; m < SPH_DIM; m++)
+                    sum += raw[k * SPH_DIM + m] * sim->corr[m * SPH_DIM + c][i];
+            }
+            l[k][c] = -sum;
+        }
+}
+
+sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const bool solid = sph_is_solid(set);
+    const bool middle = SPH_HAS_RATES_FIRST && solid && (sim->mode == SPH_ADV_KDK || sim->mode == SPH_ADV_LEAP);
+    const sph_real dt = (sph_real)sim->dt;
+    sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM], trace = 0;
+    velocity_gradient(sim, i, raw, rho, sph_corrects(&sim->cfg) && solid, l);
+    if (solid) {
+        const sph_real mu = sph_material_of(sim, set)->shear_r;
+        tensor_of(b, i, s);
+        if (middle)
+            to_the_middle(dt, mu, l, s);
+        jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, mu, rate);
+        for (uint32_t k = 0; k < SPH_NS; k++)
+            b->dstress[k][i] = rate[kept_at[k][0]][kept_at[k][1]];
+    }
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        trace += l[k][k];
+    return middle ? (sph_real)0.5 * dt * trace * trace - trace : -trace; /* the density half a step on, too */
+}
+#endif

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* term.h: what the terms of the force loop share (forces.c): the choices of a scene, a home, a group of candidates near it, and
+   the list of sums. A term is an always-inline function in its own header that begins with "not chosen: return"; choices are
+   constants in the fast paths and read at run time in the general forms. The order of terms is part of the bits. */
+#ifndef SPH_TERM_H
+#define SPH_TERM_H
+
+#include "pair.h"
+
+/* the sums of a home, and how many rows each has; BOUNDARY is not in lanes: components of a, then power */
+#define SPH_FORCE_SUMS(X)                                                                                          \
+    X(DRHO, 1)                                                                                                     \
+    X(MU, 1)                                                                                                       \
+    X(ACC, SPH_DIM)                                                                                                \
+    X(XSPH, SPH_DIM)                                                                                               \
+    X(VISCOUS, 1)                                                                                                  \
+    X(WALL, 1)                                                                                                     \
+    X(DIFFUSED, 1)                                                                                                 \
+    X(BOUNDARY, 1)                                                                                                 \
+    X(GRADIENT, SPH_WITH_SOLID ? SPH_NL : 0)
+enum {
+#define SPH_SUM_ENUM(name, rows) SUM_##name, SUM_##name##_LAST = SUM_##name + (rows) - 1,
+    SPH_FORCE_SUMS(SPH_SUM_ENUM)
+#undef SPH_SUM_ENUM
+        SUM_ROWS
+};
+#define SUM_MASK(name) SPH_SUM_MASK(SUM_##name, SUM_##name##_LAST + 1 - SUM_##name)
+_Static_assert(SUM_ROWS <= SPH_SUMS, "SPH_SUMS is too small");
+
+/* what the pair formulas depend on */
+typedef struct sph_choice {
+    uint32_t kernel, scheme, viscosity, diffusion;
+    bool wall;                /* the candidates are ghosts */
+    bool beta, xsph, books;
+    bool solid, total, hat;   /* a stress tensor; reference positions; strain rates from smoothed velocities */
+    uint32_t repulsion;       /* exponent of the artificial stress, 0: none */
+} sph_choice;
+SPH_INLINE bool sph_needs_inv_rho(uint32_t scheme, uint32_t diffusion) { return sph_weak_scheme(scheme) || sph_diffusive(diffusion); }
+
+/* what a home particle brings to each pair, spread over the lanes once */
+typedef struct sph_home {
+    vreal x[SPH_DIM], v[SPH_DIM], rho, press, inv_rho;
+} sph_home;
+
+/* a group of candidates as the home sees them; x_ij, v_ij, and what the terms find */
+typedef struct sph_near {
+    const sph_tile *tile;
+    uint32_t j;
+    vreal dx[SPH_DIM], kx[SPH_DIM], dv[SPH_DIM]; /* x_ij, K, v_ij */
+    vint apart;                                  /* of two bodies: no stress between them */
+    vreal r2, q, mg, vr;                         /* |x_ij|^2, |K|/h, m_j g, v_ij . x_ij */
+    vreal rho, press, inv_rho;
+    vreal inv;                                   /* 1/((r^2 + eta)(rho_i + rho_j)) */
+    vreal force;                                 /* a_i -= force x_ij */
+    vreal dw[SPH_DIM], fm, visc;                 /* what viscosity sees as v_ij; Morris: a_i += fm dw; Pi m_j g */
+    vreal diff;                                  /* density diffusion */
+} sph_near;
+
+SPH_INLINE sph_home sph_spread_home(const sph_tile *t, uint32_t h)
+{
+    sph_home o;
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        o.x[k] = v_set(t->x[k][h]);
+        o.v[k] = v_set(t->v[k][h]);
+    }
+    o.rho = v_set(t->rho[h]);
+    o.press = v_set(t->press[h]);
+    o.inv_rho = v_set(t->inv_rho[h]);
+    return o;
+}
+
+#endif

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* tiles.c: the columns that every candidate brings into a tile (scratch.h): place, velocity, mass, density, pressure. The
+   pressure comes from the relative density excess by the set's equation of state (Gray 2001 eq 2.25), in the form that the
+   scheme sums. Costs no array. Choices are constants in the fast paths and read at run time in the general one. */
+#include "eos_lanes.h"
+#include "sweep.h"
+
+/* particles that are copied without asking how many there are: a row of cells has about SPH_STRIDE, and a loop of fixed
+   length saves a branch that would be mispredicted; where a register holds one real, copying too many costs more */
+#define COPIED (SPH_SCALAR ? 1u : SPH_STRIDE)
+/* of homes, which are those of one cell */
+#define COPIED_HOMES (SPH_SCALAR ? 1u : SPH_LANES)
+
+/* what a tile's columns depend on */
+typedef struct tile_choice {
+    uint32_t eos;
+    bool ratio, floor, inv_rho; /* p/rho^2 instead of p; p >= 0; whether 1/rho is asked for */
+    bool wall, is_image;        /* velocities of a wall's group; seen through an image */
+} tile_choice;
+
+/* Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by the
+   next run or by sph_close_tile. */
+SPH_INLINE void load_columns(const sph_run *r, sph_tile *t, uint32_t copied, tile_choice c)
+{
+    const sph_sim *sim = r->sim;
+    const vreal m = v_set(r->set->mass_r), r0 = v_set(r->set->rho0_r), b = v_set(r->set->b_r);
+    const vreal quantum = v_set((sph_real)sim->grid.quantum);
+    const uint32_t at = t->n, s = r->first, n = r->n;
+    const sph_real *const excess = r->b->rho[0] + s;
+    const sph_pos *pos[SPH_DIM];
+    const sph_real *vel[SPH_DIM];
+    vint sign[SPH_DIM], shift[SPH_DIM];
+    vreal flip[SPH_DIM], group[SPH_DIM];
+    SPH_UNROLL
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        pos[k] = r->b->pos[k] + s;
+        vel[k] = r->b->vel[k] + s;
+        sign[k] = v_set_int(c.is_image ? r->im->sign[k] : 1);
+        shift[k] = v_set_int(c.is_image ? r->im->shift[k] - r->origin[k] : r->origin[k]);
+        flip[k] = v_set(c.is_image ? r->im->flip[k] : 1);
+        group[k] = v_set(c.wall ? (sph_real)sph_wall_velocity(sim, r->set, k) : 0);
+    }
+    for (uint32_t from = 0; from < n; from += copied)
+        SPH_UNROLL
+        for (uint32_t l = 0; l < copied; l += SPH_W) {
+            const uint32_t j = from + l;
+            SPH_UNROLL
+            for (uint32_t k = 0; k < SPH_DIM; k++) {
+                const vint q = v_load_int(pos[k] + j);
+                const vreal v = c.wall ? group[k] : v_load(vel[k] + j);
+                v_store(t->x[k] + at + j, v_from_int(c.is_image ? q * sign[k] + shift[k] : q - shift[k]) * quantum);
+                v_store(t->v[k] + at + j, c.is_image ? v * flip[k] : v);
+            }
+            const vreal e = v_load(excess + j);
+            const vreal rho = (1 + e) * r0, p = sph_pressure_of(c.eos, c.floor, b, e);
+            v_store(t->m + at + j, m);
+            v_store(t->rho + at + j, rho);
+            v_store(t->press + at + j, c.ratio ? p / (rho * rho) : p);
+            if (c.inv_rho)
+                v_store(t->inv_rho + at + j, 1 / rho);
+        }
+}
+
+static __attribute__((noinline)) void load_any(const sph_run *r, sph_tile *t, bool inv_rho)
+{
+    const sph_config *c = &r->sim->cfg;
+    const tile_choice own = {r->set->eos, !sph_weak_scheme(c->scheme), c->pressure_floor && !sph_is_solid(r->set), inv_rho,
+                             SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, SPH_HAS_IMAGES && r->im->is_image};
+    load_columns(r, t, COPIED, own);
+}
+
+/* Tait's water in a standard scheme, no image: the same text with the choices as constants; a line adds a path */
+#define SPH_FAST_LOADS(X)                                                                                          \
+    X(plain, false, false, false, COPIED)                                                                          \
+    X(plain_homes, false, false, false, COPIED_HOMES)                                                              \
+    X(floor, true, false, false, COPIED)                                                                           \
+    X(floor_homes, true, false, false, COPIED_HOMES)                                                               \
+    X(diffusive, true, true, false, COPIED)                                                                        \
+    X(diffusive_homes, true, true, false, COPIED_HOMES)                                                            \
+    X(wall, true, true, true, COPIED)
+#define SPH_FAST_FN(name, floor_, inv_rho_, wall_, copied)                                                         \
+    static __attribute__((noinline, unused)) void load_##name(const sph_run *r, sph_tile *t)                       \
+    {                                                                                                              \
+        load_columns(r, t, copied, (tile_choice){SPH_TAIT, true, floor_, inv_rho_, wall_, false});                 \
+    }
+SPH_FAST_LOADS(SPH_FAST_FN)
+#undef SPH_FAST_FN
+
+void sph_load_tile(const sph_run *r, sph_tile *t, bool inv_rho, bool homes)
+{
+    const sph_config *c = &r->sim->cfg;
+    const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST;
+    const bool floor = c->pressure_floor && !sph_is_solid(r->set);
+    const uint32_t copied = homes ? COPIED_HOMES : COPIED;
+    const bool usual = SPH_WITH_FAST_PATHS && SPH_IS(r->set->eos, TAIT) && SPH_IS(c->scheme, STANDARD) && !r->im->is_image;
+    (void)copied;
+#define SPH_FAST_TRY(name, floor_, inv_rho_, wall_, copied_)                                                       \
+    if (usual && floor == (floor_) && inv_rho == (inv_rho_) && wall == (wall_) && copied == (copied_)) {           \
+        load_##name(r, t);                                                                                         \
+        return;                                                                                                    \
+    }
+    SPH_FAST_LOADS(SPH_FAST_TRY)
+#undef SPH_FAST_TRY
+    load_any(r, t, inv_rho);
+}
+
+void sph_load_points(const sph_run *r, sph_points *t)
+{
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t j = 0; j < r->n; j += SPH_W)
+            v_store(t->x[k] + t->n + j, sph_seen_place(r, k, v_load_int(r->b->pos[k] + r->first + j)));
+    memset(t->set + t->n, (int)(r->set - r->sim->set), r->n);
+}
+
+void sph_close_tile(const sph_sim *sim, sph_tile *t)
+{
+    const sph_real far = (sph_real)(64 * sim->grid.support);
+    for (uint32_t j = t->n; j < t->n + SPH_LANES; j++) {
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            t->x[k][j] = far;
+            t->v[k][j] = 0;
+        }
+        t->m[j] = t->press[j] = 0;
+        t->rho[j] = t->inv_rho[j] = 1;
+    }
+}
