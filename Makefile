@@ -79,6 +79,7 @@ scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
+.PHONY: count
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
@@ -291,6 +292,10 @@ knobs:
 bench:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" BITS="$(BITS)" sh tests/bench.sh
 
+# instructions of a particle-step, against tests/results/count_base.csv
+count:
+	$(Q)BUILD=$(BUILD) GCC="$(GCC)" BITS="$(BITS)" sh tests/count.sh
+
 size: $(LIBS) $(if $(wildcard examples/scenes/scenes.c),$(BUILD)/size_arena)
 	$(Q)BUILD=$(BUILD) CC="$(CC)" SIZE="$(SIZE)" BITS="$(BITS_CC)" ARM_SIZE="$(ARM_SIZE)" MAKE="$(MAKE)" PYTHON="$(PYTHON)" sh tests/size.sh
 
@@ -364,6 +369,7 @@ help:
 	'make wasm       a page with a tank to tilt: open $(BUILD)/wasm/index.html' \
 	'make browser    that page in headless Chromium: hash, controls, picture' \
 	'make bench      speed and memory, gcc and clang, native and portable      -> $(BUILD)/bench.csv' \
+	'make count      instructions of a particle-step, by callgrind             -> $(BUILD)/count.csv' \
 	'make size       bytes of arena, code and stack; pairs and instructions     -> $(BUILD)/size.csv' \
 	'make size-gate  the same, against tests/results/size.csv with 3 % to spare' \
 	'make slices     the longest slice on an emulated Cortex-M4F               -> $(BUILD)/slices.csv' \

@@ -3,14 +3,9 @@
    predictor-corrector; and a free block of n x n particles, of water and of a solid, for what a solid costs. Prints rows `name,value,unit,target,ok`; bench.sh compiles it several ways and gathers them.
 
      bench PREFIX TARGET_RATE [full]    TARGET_RATE: M particle-steps/s of whole steps; full: all rows, else the rate only */
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
-#include "port/posix.h"
-#include "sph/sph.h"
+#include "bench_setups.h"
 
 #define PRECISION (SPH_DOUBLE ? "f64" : "f32")
 
@@ -39,60 +34,6 @@ static void at_pass(void *ctx, uint64_t step, const char *pass, uint64_t hash)
     s->last = now();
 }
 
-typedef struct tank {
-    sph_sim *sim;
-    void *arena;
-    size_t bytes;
-    uint32_t particles;
-} tank;
-
-static void check(sph_sim *sim, sph_status st, const char *what)
-{
-    if (st == SPH_OK)
-        return;
-    fprintf(stderr, "bench: %s: %s (%s)\n", what, sph_status_text(st), sim ? sph_last(sim)->what : "");
-    exit(1);
-}
-
-static tank fill(uint32_t n, port_posix *pool, stages *log)
-{
-    const double a = 1, dx = a / n, length = 1.5 * a, height = 1.2 * a, margin = 4 * dx;
-    sph_config c = sph_config_default();
-    tank t;
-    uint32_t set;
-    c.spacing = dx;
-    c.smoothing_length = 1.2 * dx;
-    c.gravity[1] = -9.81;
-    c.sound_speed = 45;
-    c.lo[0] = c.lo[1] = -margin;
-    c.hi[0] = length + margin;
-    c.hi[1] = height;
-    c.on_leave = SPH_REMOVE;
-    c.on_cross = SPH_PUT_BACK;
-    /* fluid, three layers on floor and two walls: what the scene has, and no more */
-    c.max_particles = n * n + 3 * (uint32_t)(length / dx + 1) + 6 * (uint32_t)(height / dx + 4) + 64;
-    if (pool) {
-        c.max_threads = pool->threads;
-        c.port = (sph_port)PORT_POSIX(pool);
-    }
-    if (log) {
-        c.stage_log = at_pass;
-        c.stage_ctx = log;
-    }
-    t.bytes = sph_arena_bytes(&c);
-    t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
-    check(NULL, t.arena ? sph_init(&t.sim, &c, t.arena, t.bytes, NULL) : SPH_ARENA_TOO_SMALL, "init");
-    const double lo[2] = {0, 0}, hi[2] = {a, a}, top[2] = {length, height};
-    sph_wall w = sph_wall_default();
-    check(t.sim, sph_add_fluid(t.sim, NULL, &set), "fluid");
-    check(t.sim, sph_add_box(t.sim, set, lo, hi, NULL), "box");
-    check(t.sim, sph_add_wall_box(t.sim, &w, lo, top, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1), true, NULL), "walls");
-    check(t.sim, sph_apply_hydrostatic(t.sim, set, a), "hydrostatic");
-    check(t.sim, sph_ready(t.sim), "ready");
-    t.particles = sph_count(t.sim);
-    return t;
-}
-
 /* seconds a step: the best of `repeats` groups of steps */
 static double best(tank *t, uint32_t steps, uint32_t repeats)
 {
@@ -107,47 +48,6 @@ static double best(tank *t, uint32_t steps, uint32_t repeats)
         least = per < least ? per : least;
     }
     return least;
-}
-
-/* a free block, slightly jittered and moving: water (form SPH_NO_SOLID) or a solid in tension here and there */
-static tank block(uint32_t n, uint32_t form, uint32_t repulsion, bool brittle)
-{
-    sph_config c = sph_config_default();
-    tank t;
-    uint32_t set, jitter = 1;
-    sph_solid m;
-    memset(&m, 0, sizeof m);
-    c.spacing = 1;
-    c.smoothing_length = 1.2;
-    c.rho0 = c.sound_speed = 1;
-    c.alpha = 0.5;
-    for (int k = 0; k < 2; k++) {
-        c.lo[k] = -5;
-        c.hi[k] = n + 5;
-    }
-    c.max_particles = n * n;
-    c.solid = form;
-    c.artificial_stress = repulsion;
-    c.yield = brittle ? SPH_VON_MISES : SPH_NO_YIELD;
-    c.damage = brittle ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
-    c.max_flaws = 1;
-    m.shear = 0.22;
-    t.bytes = sph_arena_bytes(&c);
-    t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
-    check(NULL, t.arena ? sph_init(&t.sim, &c, t.arena, t.bytes, NULL) : SPH_ARENA_TOO_SMALL, "init");
-    check(t.sim, form ? sph_add_solid(t.sim, &m, &set, NULL) : sph_add_fluid(t.sim, NULL, &set), "set");
-    for (uint32_t i = 0; i < n * n; i++) {
-        double x[2], v[2];
-        for (int k = 0; k < 2; k++) {
-            jitter = jitter * 1664525u + 1013904223u;
-            x[k] = (k ? i / n : i % n) + 0.45 + 0.1 * (jitter >> 8) / 16777216.0;
-            v[k] = 1e-3 * ((jitter >> 8) / 16777216.0 - 0.5);
-        }
-        check(t.sim, sph_add_particle(t.sim, set, x, v, 0, NULL), "particle");
-    }
-    check(t.sim, sph_ready(t.sim), "ready");
-    t.particles = n * n;
-    return t;
 }
 
 static void row(const char *prefix, const char *name, double value, const char *unit, double target, bool at_least)
@@ -183,7 +83,7 @@ static double step_over_force(void)
 {
     double least_step = 1e300, least_force = 1e300, least_hash = 1e300;
     stages log = {0, 0, 0};
-    tank plain = fill(316, NULL, NULL), logged = fill(316, NULL, &log);
+    tank plain = fill(316, NULL, NULL, NULL), logged = fill(316, NULL, at_pass, &log);
     best(&plain, 1, 1);
     best(&logged, 1, 1);
     for (int r = 0; r < 15; r++) {
@@ -242,7 +142,7 @@ static void solids(const char *prefix)
 static void full(const char *prefix, double per_particle)
 {
     char name[64];
-    tank small = fill(100, NULL, NULL), large = fill(1000, NULL, NULL);
+    tank small = fill(100, NULL, NULL, NULL), large = fill(1000, NULL, NULL, NULL);
     const double s = best(&small, 20, 5) / small.particles, l = best(&large, 2, 3) / large.particles;
     snprintf(name, sizeof name, "growth_10k_to_1M_%s", PRECISION);
     row(prefix, name, l / s, "ratio", 1.3, false);
@@ -252,7 +152,7 @@ static void full(const char *prefix, double per_particle)
     row(prefix, name, step_over_force(), "ratio", 1.35, false);
     static port_posix pool;
     if (port_posix_open(&pool, 2)) {
-        tank two = fill(316, &pool, NULL);
+        tank two = fill(316, &pool, NULL, NULL);
         snprintf(name, sizeof name, "two_threads_%s", PRECISION);
         row(prefix, name, per_particle / (best(&two, 5, 8) / two.particles), "ratio", 1.8, true);
         free(two.arena);
@@ -268,7 +168,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: bench PREFIX TARGET_RATE [full]\n");
         return 2;
     }
-    tank t = fill(316, NULL, NULL);
+    tank t = fill(316, NULL, NULL, NULL);
     const double step = best(&t, 5, 8);
     snprintf(name, sizeof name, "step_2d_%s_100k", PRECISION);
     row(argv[1], name, t.particles / step * 1e-6, "M particle-steps/s", strtod(argv[2], NULL), true);

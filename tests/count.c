@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* count.c: runs one set-up for some steps under an instruction counter (count.sh) and prints the particle-steps it made: of
+   every particle, walls too, after each step. Compiled for each build.
+
+     count SETUP N STEPS    bench: the dam break of bench.c; elastic, total: its block of a solid; default, no_books: the scene
+                            dam_break or dam_break_3d as it is, and without books */
+#include "bench_setups.h"
+#include "examples/scenes/scene.h"
+
+/* a scene with the defaults of its table, but for n and books */
+static tank scene_tank(const char *name, uint32_t n, bool books)
+{
+    static double p[64]; /* motions of a scene would read it */
+    const scene *s = NULL;
+    sph_config c;
+    tank t;
+    for (const scene *const *k = scene_table; *k; k++)
+        s = strcmp((*k)->name, name) == 0 ? *k : s;
+    check(NULL, s && s->params <= 64 ? SPH_OK : SPH_BAD_ARGUMENT, name);
+    for (uint32_t i = 0; i < s->params; i++)
+        p[i] = strcmp(s->param[i].name, "n") == 0 ? n : s->param[i].value;
+    p[SCENE_BOOKS] = books;
+    s->configure(p, &c);
+    t.bytes = sph_arena_bytes(&c);
+    t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
+    check(NULL, t.arena ? sph_init(&t.sim, &c, t.arena, t.bytes, NULL) : SPH_ARENA_TOO_SMALL, "init");
+    check(t.sim, s->build(t.sim, p), "build");
+    check(t.sim, sph_ready(t.sim), "ready");
+    t.particles = sph_count(t.sim);
+    return t;
+}
+
+int main(int argc, char **argv)
+{
+    const char *dam_break = SPH_DIM == 3 ? "dam_break_3d" : "dam_break";
+    unsigned long long done = 0;
+    tank t;
+    if (argc != 4) {
+        fprintf(stderr, "usage: count bench|elastic|total|default|no_books N STEPS\n");
+        return 2;
+    }
+    const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);
+    if (strcmp(argv[1], "bench") == 0)
+        t = fill(n, NULL, NULL, NULL);
+    else if (strcmp(argv[1], "elastic") == 0)
+        t = block(n, SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, false);
+    else if (strcmp(argv[1], "total") == 0)
+        t = block(n, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, false);
+    else
+        t = scene_tank(dam_break, n, strcmp(argv[1], "default") == 0);
+    for (uint32_t k = 0; k < steps; k++) {
+        check(t.sim, sph_step(t.sim), "step");
+        done += sph_count(t.sim);
+    }
+    printf("%llu\n", done);
+    return 0;
+}
