@@ -186,6 +186,10 @@ static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, c
 #define SPH_FAST_FORCES(X)                                                                                         \
     X(w2, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, false, 0, false)                        \
     X(w2_h, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, false, false, false, 0, false)                       \
+    X(w2_hb, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, SPH_WITH_BOOKS, false, false, 0, false)             \
+    X(w2_w, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, SPH_HAS_LAYERED_WALLS, false, 0, false)      \
+    X(w2_hw, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, false, SPH_HAS_LAYERED_WALLS, false, 0, false)      \
+    X(w2_hbw, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, SPH_WITH_BOOKS, SPH_HAS_LAYERED_WALLS, false, 0, false) \
     X(cubic, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, false, 0, false)                           \
     X(s_cubic, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 0, false)                \
     X(s_cubic_r, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 4, false)              \

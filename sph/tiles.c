@@ -77,7 +77,8 @@ static __attribute__((noinline)) void load_any(const sph_run *r, sph_tile *t, bo
     X(floor_homes, true, false, false, COPIED_HOMES)                                                               \
     X(diffusive, true, true, false, COPIED)                                                                        \
     X(diffusive_homes, true, true, false, COPIED_HOMES)                                                            \
-    X(wall, true, true, true, COPIED)
+    X(wall, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                                           \
+    X(wall_diffusive, true, true, SPH_HAS_LAYERED_WALLS, COPIED)
 #define SPH_FAST_FN(name, floor_, inv_rho_, wall_, copied)                                                         \
     static __attribute__((noinline, unused)) void load_##name(const sph_run *r, sph_tile *t)                       \
     {                                                                                                              \
