@@ -51,7 +51,7 @@ answer() {
     case $3 in -D*) define=$3 ;; esac
     # shellcheck disable=SC2086
     { machine_link "$d" "$4" "$d/refuse_sound" tests/refuse.c && $cc $bits $flags $define $defines -c tests/refuse.c -o "$dir/refuse.o" &&
-        $cc $flags $3 "$dir/refuse.o" "$dir/layout.o" $(echo "$objects" | tr ' ' '\n' | grep -v layout.o) $extra -o "$dir/refuse"; } \
+        $cc $flags $3 "$dir/refuse.o" "$dir/arithmetic.o" $(echo "$objects" | tr ' ' '\n' | grep -v arithmetic.o) $extra -o "$dir/refuse"; } \
         >"$dir/log" 2>&1 || { cat "$dir/log"; return; }
     machine_run "$dir/refuse"
 }
