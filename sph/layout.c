@@ -68,16 +68,6 @@ static void lay_out_arrays(const sph_config *c, const sph_grid *g, layout *l)
 
 /* ---- state buffers ---- */
 
-static const struct {
-    const char *name;
-    uint8_t at, components, bytes; /* number of its first pointer in sph_buffer, components, bytes of an element */
-} state_fields[] = {
-#define ROW(name, type, comps, unit, when, way)                                                                       \
-    {"state: " #name, offsetof(sph_buffer, name) / sizeof(void *), comps, sizeof(type)},
-    SPH_STATE_FIELDS(ROW)
-#undef ROW
-};
-
 static void lay_out_state(const sph_config *c, uint32_t buffer, layout *l)
 {
     const size_t first = offsetof(sph_sim, buf) + buffer * sizeof(sph_buffer);
@@ -86,9 +76,9 @@ static void lay_out_state(const sph_config *c, uint32_t buffer, layout *l)
     SPH_STATE_FIELDS(WANTED)
 #undef WANTED
     for (uint32_t f = 0; f < bit; f++)
-        for (uint32_t k = 0; wanted >> f & 1 && k < state_fields[f].components; k++)
-            put(l, first + (state_fields[f].at + k) * sizeof(void *),
-                take(l, state_fields[f].name, SPH_ROOM(c), state_fields[f].bytes));
+        for (uint32_t k = 0; wanted >> f & 1 && k < sph_fields[f].comps; k++)
+            put(l, first + (sph_fields[f].at + k) * sizeof(void *),
+                take(l, sph_fields[f].label, SPH_ROOM(c), sph_fields[f].bytes));
 }
 
 static uint32_t buffers_of(const sph_config *c)
