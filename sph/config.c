@@ -3,7 +3,7 @@
    be alone is in the list of options (options.h). */
 #include "config.h"
 
-sph_config sph_config_default(void) { return sph_options_start(); }
+sph_config sph_config_default(void) { return sph_options_start; }
 
 /* hooks of modules that were left out */
 static sph_status check_hooks(const sph_config *c, sph_report *r)
@@ -71,7 +71,7 @@ sph_status sph_check_config(const sph_config *c, sph_grid *grid, size_t *bytes, 
     sph_status st;
     if (!c)
         return sph_refuse(r, "configuration", "a pointer to a configuration", 0);
-    if (!sph_options_started(c))
+    if (c->cookie != sph_options_start.cookie)
         return sph_refuse(r, "cookie", "a configuration made by sph_config_default of this version", c->cookie);
     if ((st = sph_options_check(c, r)) != SPH_OK || (st = check_hooks(c, r)) != SPH_OK ||
         (st = check_domain(c, r)) != SPH_OK || (st = check_fluids(c, r)) != SPH_OK ||

@@ -261,11 +261,9 @@ enum {
     SPH_OPTIONS(SPH_OPTION_NUMBER, SPH_OPTION_NUMBER, )
     SPH_OPTION_COUNT
 };
-/* the defaults, and whether a configuration began with them */
+/* the defaults; a configuration that began with them has their cookie */
 #define sph_options_start SPH_NAME(options_start_)
-sph_config sph_options_start(void);
-#define sph_options_started SPH_NAME(options_started_)
-bool sph_options_started(const sph_config *c);
+extern const sph_config sph_options_start;
 /* each option alone; r may be null */
 #define sph_options_check SPH_NAME(options_check_)
 sph_status sph_options_check(const sph_config *c, sph_report *r);

@@ -2,8 +2,6 @@
 /* options.c: what follows from the list of options (options.h): defaults, the check of each alone, the digest. */
 #include "internal.h"
 
-#define SPH_COOKIE 0x53504801u
-
 /* what the checks and the digest ask of an option. A table of places, not of values: it stays in read-only memory.
    Bounds are floats, which hold all of them. */
 typedef struct option {
@@ -38,15 +36,9 @@ _Static_assert(sizeof(sph_config) < 65536, "offsets of options have 16 bits");
 #define START_FACES(start) {{start, start}, {start, start}, {start, start}}
 #endif
 
-sph_config sph_options_start(void)
-{
 #define START(A, name, kind, start, ...) .name = START_##kind(start),
-    static const sph_config usual = {.cookie = SPH_COOKIE, SPH_OPTIONS(START, START, )};
+const sph_config sph_options_start = {.cookie = 0x53504801u, SPH_OPTIONS(START, START, )};
 #undef START
-    return usual;
-}
-
-bool sph_options_started(const sph_config *c) { return c->cookie == SPH_COOKIE; }
 
 /* ---- values ---- */
 
