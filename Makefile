@@ -69,6 +69,7 @@ PORT   := port/posix.c
 SCENES := $(wildcard examples/scenes/*.c)
 PROGS  := $(wildcard examples/*.c)
 TOOLS  := $(filter-out tools/build.c,$(wildcard tools/*.c))
+EXTRA_LISTS := $(wildcard tests/extra_*.h)
 TESTS  := $(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c)))
 
 LIBS := $(BUILDS:%=$(BUILD)/libsph%.a)
@@ -104,6 +105,10 @@ $(BUILD)/obj/$(1)/%.o: %.c
 	$$(say) cc "$$< ($(1))"
 	@mkdir -p $$(@D)
 	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(HOST_CFLAGS) $(call defines,$(1)) -MMD -MP -c $$< -o $$@
+$(BUILD)/extra/$(1)/%.o: %.c $(EXTRA_LISTS)
+	$$(say) cc "$$< ($(1), extra lists)"
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(HOST_CFLAGS) $(call defines,$(1)) $(EXTRA_LISTS:%=-include %) -MMD -MP -c $$< -o $$@
 $(BUILD)/libsph$(1).a: $$(KERNEL:%.c=$(BUILD)/obj/$(1)/%.o)
 	$$(say) ar $$@
 	$$(Q)rm -f $$@ && $$(AR) rcs $$@ $$^
@@ -119,7 +124,7 @@ $(BUILD)/sph: $(tools_obj) $(build_obj) $(scene_obj) $(port_obj) $(LIBS)
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $(THREADS) $^ -o $@ $(PNG_LIBS) -lm
 
--include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD)/obj $(BUILD)/extra -name '*.d' 2>/dev/null)
 
 # ---- examples: each examples/NAME.c is a program on the 2-D float build ----
 
@@ -161,6 +166,8 @@ builds_test_solid   := $(BUILDS)
 builds_test_solid_forces := $(BUILDS)
 builds_test_solid_motion := $(BUILDS)
 builds_test_damage  := 2f 2d 3f 3d
+builds_test_options := 1d 2f 3f
+builds_test_arena   := $(BUILDS)
 builds_of = $(or $(builds_$(1)),2f 2d)
 # the stability atlas (tests/lab): one program of parts from several builds
 atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension box) \
@@ -173,8 +180,13 @@ test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/te
 command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o cmd_list.o),$(tools_obj))
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
 
+# tests with a kernel of their own, whose lists are longer by the lines of tests/extra_*.h
+EXTRA_TESTS := test_options
+obj_of = $(BUILD)/$(if $(filter $(1),$(EXTRA_TESTS)),extra,obj)/$(2)
+kernel_of = $(if $(filter $(1),$(EXTRA_TESTS)),$(KERNEL:%.c=$(BUILD)/extra/$(2)/%.o),$(BUILD)/libsph$(2).a)
+
 define test_rule
-$(BUILD)/tests/$(1)_$(2): $(BUILD)/obj/$(2)/tests/$(1).o $(call of_tool,$(1),$(command_obj)) $(if $(filter test_atlas,$(1)),$(atlas_obj) $(atlas_libs)) $(port_obj) $(SCENES:%.c=$(BUILD)/obj/$(2)/%.o) $(BUILD)/libsph$(2).a
+$(BUILD)/tests/$(1)_$(2): $(call obj_of,$(1),$(2))/tests/$(1).o $(call of_tool,$(1),$(command_obj)) $(if $(filter test_atlas,$(1)),$(atlas_obj) $(atlas_libs)) $(port_obj) $(SCENES:%.c=$(call obj_of,$(1),$(2))/%.o) $(call kernel_of,$(1),$(2))
 	$$(say) link $$@
 	@mkdir -p $$(@D)
 	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(LDFLAGS) $$(THREADS) $$^ -o $$@ -lcmocka $(call of_tool,$(1),$(PNG_LIBS)) -lm

@@ -3,7 +3,7 @@
 #include "sweep.h"
 
 #define SPH_COLUMN_LOADER(name, ghosts, rows, knob, when)                                                          \
-    void SPH_NAME(load_##name##_)(const sph_run *r, sph_real *to, uint32_t row);
+    void SPH_NAME(load_##name##_)(const sph_candidates *r, sph_real *to, uint32_t row);
 SPH_COLUMN_SETS(SPH_COLUMN_LOADER)
 #undef SPH_COLUMN_LOADER
 

@@ -3,6 +3,8 @@
 #ifndef SPH_FIELDS_H
 #define SPH_FIELDS_H
 
+#include <stddef.h>
+
 #include "lanes.h"
 #include "sph.h"
 
@@ -21,30 +23,89 @@ typedef sph_int sph_pos;
 /* The one list of state fields:
      name, element type, components, unit, condition on the configuration `c`, and how it goes through a step:
        SPH_PLACED     the sort itself moves and advances it (what a cell is found by, and what the sweep reads at once)
-       SPH_RATE       made anew by the passes of every stage; walls get zeros
+       SPH_SUMMED     the force sweep writes it for every body; walls get zeros
+       SPH_RATE       zero after the sort, then whatever the passes of the stage write
        SPH_CARRIED    goes with its particle unchanged, until a pass of its own changes it
-       SPH_DISPLACED  carried, and gains what the particle moved (quanta)
+       SPH_DISPLACED  carried, and gains what the particle moved (quanta; component k is along axis k)
        SPH_EVOLVES(r) carried, and advanced by every integrator with its rate, field r
+     Reals that are carried or evolve must be finite at a step's end; | SPH_NOT_NEGATIVE or | SPH_SHARE (0 .. 1) asks for more.
    Sort, integrators, hash, dump, restore, wipe and arena sizes follow from it. */
 #define SPH_STATE_FIELDS(X)                                                                                       \
     X(pos, sph_pos, SPH_DIM, "quantum", true, SPH_PLACED)                                                         \
     X(vel, sph_real, SPH_DIM, "m/s", true, SPH_PLACED)                                                            \
     X(rho, sph_real, 1, "1", true, SPH_PLACED) /* (density - rho0)/rho0 */                                        \
-    X(acc, sph_real, SPH_DIM, "m/s^2", true, SPH_RATE)                                                            \
-    X(drho, sph_real, 1, "1/s", true, SPH_RATE)                                                                   \
-    X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c), SPH_RATE)                                                 \
+    X(acc, sph_real, SPH_DIM, "m/s^2", true, SPH_SUMMED)                                                          \
+    X(drho, sph_real, 1, "1/s", true, SPH_SUMMED)                                                                 \
+    X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c), SPH_SUMMED)                                               \
     X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c), SPH_EVOLVES(dstress)) /* deviatoric: xx yy xy, xx yy xy xz yz */ \
     X(dstress, sph_real, SPH_NS, "Pa/s", sph_has_solids(c), SPH_RATE)                                             \
-    X(plastic, sph_real, 1, "1", sph_yields(c), SPH_CARRIED)                                                      \
-    X(damage, sph_real, 1, "1", sph_damages(c), SPH_CARRIED) /* D^(1/SPH_DIM) */                                  \
+    X(plastic, sph_real, 1, "1", sph_yields(c), SPH_CARRIED | SPH_NOT_NEGATIVE)                                   \
+    X(damage, sph_real, 1, "1", sph_damages(c), SPH_CARRIED | SPH_SHARE) /* D^(1/SPH_DIM) */                      \
     X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c), SPH_DISPLACED) /* displacement since the start */      \
-    X(id, uint32_t, 1, "1", true, SPH_PLACED) /* within a step: the particle's index in the source buffer */      \
-    X(set, uint8_t, 1, "1", true, SPH_PLACED)
+    X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: the particle's index in the source buffer */ \
+    X(set, uint8_t, 1, "1", true, SPH_PLACED)                                                                     \
+    SPH_EXTRA_FIELDS(X)
+
+/* fields that a build brings with it: tests/extra_fields.h shows that nothing else has to be said */
+#ifndef SPH_EXTRA_FIELDS
+#define SPH_EXTRA_FIELDS(X)
+#endif
 
 typedef struct sph_buffer {
 #define SPH_FIELD_MEMBER(name, type, comps, unit, when, way) type *name[comps];
     SPH_STATE_FIELDS(SPH_FIELD_MEMBER)
 #undef SPH_FIELD_MEMBER
 } sph_buffer;
+
+/* ---- the list as a table ---- */
+
+/* number of a field's first pointer in sph_buffer */
+#define SPH_FIELD_AT(name) (offsetof(sph_buffer, name) / sizeof(void *))
+
+/* what the last column may be */
+enum {
+    SPH_PLACED,
+    SPH_SUMMED,
+    SPH_RATE,
+    SPH_CARRIED,
+    SPH_DISPLACED,
+    SPH_EVOLVING,
+    SPH_WAYS = 7,         /* the bits of those above */
+    SPH_NOT_NEGATIVE = 8,
+    SPH_SHARE = 16
+};
+#define SPH_EVOLVES(rate) (SPH_EVOLVING | SPH_FIELD_AT(rate) << 8)
+
+typedef struct sph_field {
+    const char *label; /* "state: " and the name */
+    uint8_t at;        /* SPH_FIELD_AT */
+    uint8_t comps;
+    uint8_t bytes;     /* of an element */
+    bool real;         /* elements are reals */
+    uint8_t way;       /* SPH_PLACED .. SPH_EVOLVING */
+    uint8_t range;     /* SPH_NOT_NEGATIVE, SPH_SHARE, or 0 */
+    uint8_t rate;      /* SPH_EVOLVING: SPH_FIELD_AT its rate */
+} sph_field;
+
+enum {
+#define SPH_FIELD_NUMBER(name, type, comps, unit, when, way) SPH_FIELD_NUMBER_##name,
+    SPH_STATE_FIELDS(SPH_FIELD_NUMBER)
+#undef SPH_FIELD_NUMBER
+        SPH_FIELD_COUNT
+};
+
+/* all fields, whether a scene has them or not, in the order of the list */
+#define sph_fields SPH_NAME(fields_)
+extern const sph_field sph_fields[SPH_FIELD_COUNT];
+
+SPH_INLINE const char *sph_field_name(const sph_field *f) { return f->label + sizeof "state: " - 1; }
+
+/* pointer number `at` of a buffer; null where the scene has no such field */
+SPH_INLINE void *sph_array(const sph_buffer *b, uint32_t at)
+{
+    void *p;
+    memcpy(&p, (const unsigned char *)b + at * sizeof p, sizeof p);
+    return p;
+}
 
 #endif

@@ -1,26 +1,31 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* internal.h: the simulation's own data, and which file does what.
 
-   layout.c   configuration checks, the one layout function, init, usage
-   setup.c    sets, particles, boxes, initial fields, equations of state; layers.c walls as rows or layers of particles
-   shapes.c   rings, polygons, shapes with holes, on square and face-centred lattices
+   base       report.c failures; digest.c; arithmetic.c the probe of the machine; eos.c equations of state; kernels.c
+              smoothing kernels; dmath.c deterministic functions; lanes.h vectors
+   data       options.c the list of options (options.h); grid.c; layout.c the arena (arrays.h, fields.h); state.c
    sort.c     moves particles and orders them by (cell, id): the start of every stage
    sweep.c    the one neighbour sweep: candidates of a cell go into tiles, sums come out
    fluid.c    pair formulas of water: density, momentum, viscosity, diffusion, XSPH, filters
    solid.c    stress: rates, corrected gradients, yield; solid.h its pair formulas; damage.c flaws and damage
    walls.c    boundary forces, Adami's extrapolation, crossing, moving walls
    step.c     integrators as lists of passes, local passes; run.c runs them: time step, slices, threads, failure
-   books.c    totals, probes, gauges; hash.c state hash; dump.c dump and restore
-   kernels.c  smoothing kernels; dmath.c deterministic functions; lanes.h vectors
+   entries    config.c, init.c; setup.c particles and boxes, bodies.c sets of fluid and solid, initial.c fields, layers.c
+              walls as rows or layers, shapes.c, flaws.c; reading.c, totals.c, probes.c; hash.c; dump.c, restore.c
+              on stream.c and records.c
 
    Arrays: a state buffer holds what one moment of the scene is made of. A step reads buffer `cur`, writes another,
    and commits by changing `cur`: that is how a failed step leaves the state as it was. */
 #ifndef SPH_INTERNAL_H
 #define SPH_INTERNAL_H
 
+#include "arrays.h"
 #include "columns.h"
+#include "digest.h"
+#include "eos.h"
 #include "fields.h"
 #include "lanes.h"
+#include "report.h"
 #include "sph.h"
 
 #define SPH_PAD 48u       /* elements that may be read past an array's end by a vector */
@@ -120,7 +125,6 @@ enum { SPH_ADV_COPY, SPH_ADV_PC, SPH_ADV_KDK, SPH_ADV_LEAP, SPH_ADV_RK };
 #define SPH_MAX_PROGRAM 48u
 
 struct sph_sim {
-    uint64_t magic;
     sph_config cfg;
     sph_grid grid;
     double courant; /* cfl, or less where the integrator does not stand it */
@@ -130,25 +134,14 @@ struct sph_sim {
     uint32_t buffers, cur, src, dst; /* current state; source and target of the stage under way */
     uint32_t src_count, mode;        /* particles in src; SPH_ADV_... of the stage */
     bool src_table;                  /* cell[] belongs to src, so its slabs are known */
-    uint32_t *cell;                  /* cells + 1 starts */
-    uint32_t *slab;                  /* starts of the slabs in the source buffer */
-    sph_real *tmp;                   /* filtered density */
-    sph_real *corr[SPH_NL];          /* M^-1 of a particle of the destination buffer (solid.c) */
-    uint32_t *flaw_start;            /* by id: its flaws are flaw[flaw_start[id] .. flaw_start[id + 1]) */
-    float *flaw;                     /* thresholds */
+#define SPH_ONE_MEMBER(name, type, count, when, what) type *name;
+#define SPH_MANY_MEMBER(name, type, components, count, when, what) type *name[components];
+    SPH_SCENE_ARRAYS(SPH_ONE_MEMBER, SPH_MANY_MEMBER)
     uint32_t flaws;
-    sph_real *power[4];              /* viscous, wall, diffusion, body-force power of a particle (books) */
-    double *partial;                 /* SPH_PARTIALS sums a chunk (books) */
-    uint32_t partials;
-    struct sph_thread *thread;
     size_t arena_bytes, arena_used;
     /* sets */
-    sph_set *set;     /* SPH_MAX_SETS of them, in the arena like everything large */
-    sph_material *material;                  /* as many, in scenes with solids */
     const struct sph_column_set *columns;    /* the table of column sets (columns.c) */
-    sph_real *extra;                         /* of each thread, extra_reals for the column sets that the scene wants */
-    uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT];
-    sph_group *group; /* SPH_MAX_GROUPS */
+    uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT]; /* of a thread's column sets: their reals, and where each begins */
     uint32_t sets, groups;
     uint64_t setup_hash;
     bool has_adami, has_force_wall;
@@ -196,6 +189,9 @@ struct sph_pass {
 #define SPH_VISCOSITIES_IN                                                                                  \
     (1 << SPH_INVISCID | SPH_WITH_ARTIFICIAL << SPH_ARTIFICIAL |                                            \
      SPH_WITH_ARTIFICIAL_APPROACHING << SPH_ARTIFICIAL_APPROACHING | SPH_WITH_MORRIS << SPH_MORRIS)
+#define SPH_DENSITIES_IN (1 << SPH_CONTINUITY | SPH_WITH_SUMMATION << SPH_SUMMATION)
+#define SPH_DIFFUSIONS_IN                                                                                   \
+    (1 << SPH_NO_DIFFUSION | SPH_WITH_MOLTENI << SPH_MOLTENI | SPH_WITH_HYDROSTATIC << SPH_HYDROSTATIC)
 #define SPH_INTEGRATORS_IN                                                                                  \
     (SPH_WITH_PREDICTOR_CORRECTOR << SPH_PREDICTOR_CORRECTOR | SPH_WITH_KICK_DRIFT_KICK << SPH_KICK_DRIFT_KICK | \
      SPH_WITH_LEAP_FROG << SPH_LEAP_FROG | SPH_WITH_RUNGE_KUTTA << SPH_RUNGE_KUTTA |                        \
@@ -248,26 +244,62 @@ SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set
 SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */
-#define sph_sim_magic 0x5350485f53494d31u
 
 #define sph_fail_note SPH_NAME(fail_note_)
 void sph_fail_note(struct sph_thread *t, sph_status s, uint32_t id, double value);
+
+/* state.c: records a failure with the pass under way and tells the host's fault hook; returns s */
 #define sph_error SPH_NAME(error_)
 sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle);
-#define sph_mix SPH_NAME(mix_)
-uint64_t sph_mix(uint64_t h, uint64_t v);
-#define sph_mix_double SPH_NAME(mix_double_)
-uint64_t sph_mix_double(uint64_t h, double v);
-#define sph_hash_config SPH_NAME(hash_config_)
-uint64_t sph_hash_config(const sph_config *c);
 #define sph_hash_buffer SPH_NAME(hash_buffer_)
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n);
-#define sph_pressure SPH_NAME(pressure_)
-double sph_pressure(const sph_sim *sim, const sph_set *s, double d);
-#define sph_density_of SPH_NAME(density_of_)
-double sph_density_of(const sph_sim *sim, const sph_set *s, double p);
-#define sph_kernel_w SPH_NAME(kernel_w_)
-double sph_kernel_w(const sph_sim *sim, double r);
+
+/* options.c: see options.h */
+enum {
+    SPH_OPTION_WHOLE, SPH_OPTION_REAL, SPH_OPTION_POSITIVE, SPH_OPTION_VECTOR, SPH_OPTION_BOOL, SPH_OPTION_CHOICE,
+    SPH_OPTION_FACES
+};
+enum { SPH_OPTION_FIXED, SPH_OPTION_FREE, SPH_OPTION_ROOM };
+enum {
+#define SPH_OPTION_NUMBER(A, name, ...) SPH_NUMBER_OF_##name,
+    SPH_OPTIONS(SPH_OPTION_NUMBER, SPH_OPTION_NUMBER, )
+    SPH_OPTION_COUNT
+};
+/* the defaults; a configuration that began with them has their cookie */
+#define sph_options_start SPH_NAME(options_start_)
+extern const sph_config sph_options_start;
+/* each option alone; r may be null */
+#define sph_options_check SPH_NAME(options_check_)
+sph_status sph_options_check(const sph_config *c, sph_report *r);
+/* what would be allowed instead of v for an option, SPH_NUMBER_OF_...; null: v is */
+#define sph_option_refusal SPH_NAME(option_refusal_)
+const char *sph_option_refusal(uint32_t number, double v);
+/* takes everything from a configuration but the room that the arena was made for */
+#define sph_options_take SPH_NAME(options_take_)
+void sph_options_take(sph_config *c, const sph_config *from);
+/* digest of the options that may not change */
+#define sph_hash_config SPH_NAME(hash_config_)
+uint64_t sph_hash_config(const sph_config *c);
+
+/* grid.c: the grid of a configuration whose options were checked; r may be null */
+#define sph_make_grid SPH_NAME(make_grid_)
+sph_status sph_make_grid(const sph_config *c, sph_grid *s, sph_report *r);
+
+/* layout.c: bytes of the arena, false if this machine cannot address them; lays it out; lists what is in it */
+typedef void sph_arena_fn(void *ctx, const char *name, size_t bytes);
+#define sph_measure_arena SPH_NAME(measure_arena_)
+bool sph_measure_arena(const sph_config *c, const sph_grid *g, size_t *bytes);
+#define sph_lay_out_arena SPH_NAME(lay_out_arena_)
+sph_sim *sph_lay_out_arena(const sph_config *c, const sph_grid *g, void *arena);
+#define sph_list_arena SPH_NAME(list_arena_)
+void sph_list_arena(const sph_config *c, const sph_grid *g, sph_arena_fn *fn, void *ctx);
+
+/* pressure (Pa) of a set's particle at relative density excess d, and the excess at a pressure (eos.h) */
+SPH_INLINE double sph_pressure(const sph_sim *sim, const sph_set *s, double d)
+{
+    return sph_eos_pressure(s->eos, (double)s->b_r, d, sim->cfg.pressure_floor && !sph_is_solid(s));
+}
+SPH_INLINE double sph_density_of(const sph_set *s, double p) { return sph_eos_excess(s->eos, (double)s->b_r, p); }
 
 SPH_INLINE bool sph_finite(double x) { return x - x == 0; }
 SPH_INLINE double sph_abs(double x) { return x < 0 ? -x : x; }

@@ -71,12 +71,9 @@ static sph_status finish_wall(sph_sim *sim, const sph_wall *w, wall_mark m, sph_
     }
     sim->has_adami |= w->kind == SPH_WALL_ADAMI;
     sim->has_force_wall |= !layered(w);
-    sim->group[sim->groups] = (sph_group){w->motion, w->motion_ctx};
-    memset(&sim->now.group[sim->groups], 0, sizeof sim->now.group[0]);
-    sim->now.group[sim->groups].remove_at = 1e300;
+    const uint32_t made = sph_setup_add_group(sim, w->motion, w->motion_ctx);
     if (group)
-        *group = sim->groups;
-    sim->groups++;
+        *group = made;
     return sph_setup_end_adding(sim, m.count, SPH_OK);
 }
 

@@ -4,7 +4,7 @@
 
 #if SPH_HAS_LAYERED_WALLS
 /* normal . (wall face - home cell), with the wall where it is now, and its image (m) */
-static double plane_of(const sph_run *r)
+static double plane_of(const sph_candidates *r)
 {
     const double q = r->sim->grid.quantum;
     double plane = 0;
@@ -16,7 +16,7 @@ static double plane_of(const sph_run *r)
     return plane;
 }
 
-void sph_load_mirror(const sph_run *r, sph_real *to, uint32_t row)
+void sph_load_mirror(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const bool mirror = SPH_IS(r->set->kind, WALL_GHOST);
     const double plane = mirror ? plane_of(r) : 0;

@@ -17,6 +17,6 @@ SPH_INLINE const sph_mirror_tile *sph_mirror_of(const sph_sim *sim, const sph_th
     return (const sph_mirror_tile *)(const void *)sph_columns_of(sim, t, SPH_COLUMN_mirror);
 }
 #define sph_load_mirror SPH_NAME(load_mirror_)
-void sph_load_mirror(const sph_run *r, sph_real *to, uint32_t row);
+void sph_load_mirror(const sph_candidates *r, sph_real *to, uint32_t row);
 
 #endif

@@ -1,211 +1,78 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* modules.h: one build knob for each module. -DSPH_WITH_NAME=0 leaves its code out: a configuration that asks for it is
-   refused with SPH_BAD_CONFIG or SPH_BAD_ARGUMENT, a function that belongs to it does not link. -DSPH_WITH_ALL=0 turns
-   every knob off that is not named. Knobs change no type, no bit and no dump, so a small build may read what a full one
-   wrote. Names are those of the choices in sph.h without SPH_. */
+/* modules.h: the one list of build knobs, one for each module. -DSPH_WITH_NAME=0 leaves its code out: a configuration
+   that asks for it is refused with SPH_BAD_CONFIG or SPH_BAD_ARGUMENT, a function that belongs to it does not link.
+   -DSPH_WITH_ALL=0 turns every knob off that is not named. Knobs change no type, no bit and no dump, so a small build
+   may read what a full one wrote. Names are those of the choices in sph.h without SPH_.
+
+   A line: X(name, what it needs to be of use). A new knob is a line here, and its default in knobs.h. */
 #ifndef SPH_MODULES_H
 #define SPH_MODULES_H
 
-#ifndef SPH_WITH_ALL
-#define SPH_WITH_ALL 1
-#endif
+#include "name.h"
 
-/* inner loops compiled apart for common choices: same bits, more speed, more code */
-#ifndef SPH_WITH_FAST_PATHS
-#define SPH_WITH_FAST_PATHS SPH_WITH_ALL
-#endif
+#define SPH_KNOBS(X)                                                                                       \
+    X(FAST_PATHS, 1) /* inner loops compiled apart for common choices: same bits, more speed, more code */ \
+    X(CUBIC, 1) /* smoothing kernels */                                                                    \
+    X(QUARTIC, 1)                                                                                          \
+    X(QUINTIC, 1)                                                                                          \
+    X(GAUSSIAN, 1)                                                                                         \
+    X(WENDLAND_C2, 1)                                                                                      \
+    X(WENDLAND_C4, 1)                                                                                      \
+    X(HAT, 1)                                                                                              \
+    X(STANDARD, 1) /* schemes */                                                                           \
+    X(WEAK, 1)                                                                                             \
+    X(DIRECT, 1)                                                                                           \
+    X(STANDARD_WICK, 1)                                                                                    \
+    X(WEAK_WICK, 1)                                                                                        \
+    X(SUMMATION, 1) /* density by summation */                                                             \
+    X(SHEPARD, 1) /* the Shepard filter */                                                                 \
+    X(XSPH, 1) /* velocities smoothed over neighbours */                                                   \
+    X(TAIT, 1) /* equations of state */                                                                    \
+    X(TAIT_GRAY, 1)                                                                                        \
+    X(LINEAR, 1)                                                                                           \
+    X(ISOTHERMAL, 1)                                                                                       \
+    X(ARTIFICIAL, 1) /* viscosities */                                                                     \
+    X(ARTIFICIAL_APPROACHING, 1)                                                                           \
+    X(MORRIS, 1)                                                                                           \
+    X(MOLTENI, 1) /* density diffusion */                                                                  \
+    X(HYDROSTATIC, 1)                                                                                      \
+    X(PREDICTOR_CORRECTOR, 1) /* integrators */                                                            \
+    X(KICK_DRIFT_KICK, 1)                                                                                  \
+    X(LEAP_FROG, 1)                                                                                        \
+    X(RUNGE_KUTTA, 1)                                                                                      \
+    X(RUNGE_KUTTA_MOMENTUM, 1)                                                                             \
+    X(PERIODIC, 1) /* faces of the domain beside open ones */                                              \
+    X(SYMMETRY, 1)                                                                                         \
+    X(MIRROR_NO_SLIP, 1)                                                                                   \
+    X(WALL_LENNARD_JONES, 1) /* walls */                                                                   \
+    X(WALL_KERNEL_FORCE, 1)                                                                                \
+    X(WALL_MONAGHAN_KOS, 1)                                                                                \
+    X(WALL_GHOST, 1)                                                                                       \
+    X(WALL_ADAMI, 1)                                                                                       \
+    X(MOVING_WALLS, 1) /* walls that move or vanish */                                                     \
+    X(SOLID, 1) /* solids: hypoelastic stress */                                                           \
+    X(CORRECTED, SPH_WITH_SOLID) /* corrected gradients */                                                 \
+    X(TOTAL_LAGRANGIAN, SPH_WITH_SOLID) /* total-Lagrangian form */                                        \
+    X(YIELD, SPH_WITH_SOLID)                                                                               \
+    X(DAMAGE, SPH_WITH_SOLID && SPH_DIM > 1) /* flaws and damage */                                        \
+    X(ARTIFICIAL_STRESS, SPH_WITH_SOLID)                                                                   \
+    X(XSPH_STRAIN, SPH_WITH_SOLID && SPH_WITH_XSPH) /* strain rates from smoothed velocities */            \
+    X(HELD, SPH_WITH_SOLID) /* sets that are held or pulled */                                             \
+    X(BODY_FORCE, 1) /* a body force beside gravity */                                                     \
+    X(BOOKS, 1) /* work and dissipation */                                                                 \
+    X(STAGE_LOG, 1)                                                                                        \
+    X(TOTALS, 1) /* sph_get_totals */                                                                      \
+    X(PROBES, 1) /* sph_probe, sph_probe_line, sph_gauge, sph_extent */                                    \
+    X(SHAPES, 1) /* rings, polygons, shapes with holes */                                                  \
+    X(FIELDS, 1) /* sph_apply_field, sph_apply_hydrostatic */                                              \
+    X(DUMP, 1) /* sph_dump */                                                                              \
+    X(RESTORE, 1) /* sph_restore (needs sph_dump's file, not the function) */
 
-/* smoothing kernels */
-#ifndef SPH_WITH_CUBIC
-#define SPH_WITH_CUBIC SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_QUARTIC
-#define SPH_WITH_QUARTIC SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_QUINTIC
-#define SPH_WITH_QUINTIC SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_GAUSSIAN
-#define SPH_WITH_GAUSSIAN SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_WENDLAND_C2
-#define SPH_WITH_WENDLAND_C2 SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_WENDLAND_C4
-#define SPH_WITH_WENDLAND_C4 SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_HAT
-#define SPH_WITH_HAT SPH_WITH_ALL
-#endif
+#include "knobs.h"
 
-/* schemes */
-#ifndef SPH_WITH_STANDARD
-#define SPH_WITH_STANDARD SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_WEAK
-#define SPH_WITH_WEAK SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_DIRECT
-#define SPH_WITH_DIRECT SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_STANDARD_WICK
-#define SPH_WITH_STANDARD_WICK SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_WEAK_WICK
-#define SPH_WITH_WEAK_WICK SPH_WITH_ALL
-#endif
-
-/* density by summation; the Shepard filter; XSPH */
-#ifndef SPH_WITH_SUMMATION
-#define SPH_WITH_SUMMATION SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_SHEPARD
-#define SPH_WITH_SHEPARD SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_XSPH
-#define SPH_WITH_XSPH SPH_WITH_ALL
-#endif
-
-/* equations of state */
-#ifndef SPH_WITH_TAIT
-#define SPH_WITH_TAIT SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_TAIT_GRAY
-#define SPH_WITH_TAIT_GRAY SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_LINEAR
-#define SPH_WITH_LINEAR SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_ISOTHERMAL
-#define SPH_WITH_ISOTHERMAL SPH_WITH_ALL
-#endif
-
-/* viscosities and density diffusion */
-#ifndef SPH_WITH_ARTIFICIAL
-#define SPH_WITH_ARTIFICIAL SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_ARTIFICIAL_APPROACHING
-#define SPH_WITH_ARTIFICIAL_APPROACHING SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_MORRIS
-#define SPH_WITH_MORRIS SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_MOLTENI
-#define SPH_WITH_MOLTENI SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_HYDROSTATIC
-#define SPH_WITH_HYDROSTATIC SPH_WITH_ALL
-#endif
-
-/* integrators */
-#ifndef SPH_WITH_PREDICTOR_CORRECTOR
-#define SPH_WITH_PREDICTOR_CORRECTOR SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_KICK_DRIFT_KICK
-#define SPH_WITH_KICK_DRIFT_KICK SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_LEAP_FROG
-#define SPH_WITH_LEAP_FROG SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_RUNGE_KUTTA
-#define SPH_WITH_RUNGE_KUTTA SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_RUNGE_KUTTA_MOMENTUM
-#define SPH_WITH_RUNGE_KUTTA_MOMENTUM SPH_WITH_ALL
-#endif
-
-/* faces of the domain beside open ones */
-#ifndef SPH_WITH_PERIODIC
-#define SPH_WITH_PERIODIC SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_SYMMETRY
-#define SPH_WITH_SYMMETRY SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_MIRROR_NO_SLIP
-#define SPH_WITH_MIRROR_NO_SLIP SPH_WITH_ALL
-#endif
-
-/* walls; walls that move or vanish */
-#ifndef SPH_WITH_WALL_LENNARD_JONES
-#define SPH_WITH_WALL_LENNARD_JONES SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_WALL_KERNEL_FORCE
-#define SPH_WITH_WALL_KERNEL_FORCE SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_WALL_MONAGHAN_KOS
-#define SPH_WITH_WALL_MONAGHAN_KOS SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_WALL_GHOST
-#define SPH_WITH_WALL_GHOST SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_WALL_ADAMI
-#define SPH_WITH_WALL_ADAMI SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_MOVING_WALLS
-#define SPH_WITH_MOVING_WALLS SPH_WITH_ALL
-#endif
-
-/* solids: hypoelastic stress; corrected gradients; total-Lagrangian form; yield; damage; artificial stress; strain rates
-   from smoothed velocities; sets that are held or pulled. All but the first need SOLID. */
-#ifndef SPH_WITH_SOLID
-#define SPH_WITH_SOLID SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_CORRECTED
-#define SPH_WITH_CORRECTED SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_TOTAL_LAGRANGIAN
-#define SPH_WITH_TOTAL_LAGRANGIAN SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_YIELD
-#define SPH_WITH_YIELD SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_DAMAGE
-#define SPH_WITH_DAMAGE SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_ARTIFICIAL_STRESS
-#define SPH_WITH_ARTIFICIAL_STRESS SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_XSPH_STRAIN
-#define SPH_WITH_XSPH_STRAIN SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_HELD
-#define SPH_WITH_HELD SPH_WITH_ALL
-#endif
-
-/* a body force beside gravity; work and dissipation (books); the stage log */
-#ifndef SPH_WITH_BODY_FORCE
-#define SPH_WITH_BODY_FORCE SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_BOOKS
-#define SPH_WITH_BOOKS SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_STAGE_LOG
-#define SPH_WITH_STAGE_LOG SPH_WITH_ALL
-#endif
-
-/* sph_get_totals; sph_probe, sph_probe_line, sph_gauge, sph_extent */
-#ifndef SPH_WITH_TOTALS
-#define SPH_WITH_TOTALS SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_PROBES
-#define SPH_WITH_PROBES SPH_WITH_ALL
-#endif
-
-/* rings, polygons, shapes with holes; sph_apply_field, sph_apply_hydrostatic */
-#ifndef SPH_WITH_SHAPES
-#define SPH_WITH_SHAPES SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_FIELDS
-#define SPH_WITH_FIELDS SPH_WITH_ALL
-#endif
-
-/* sph_dump; sph_restore (needs sph_dump's file, not the function) */
-#ifndef SPH_WITH_DUMP
-#define SPH_WITH_DUMP SPH_WITH_ALL
-#endif
-#ifndef SPH_WITH_RESTORE
-#define SPH_WITH_RESTORE SPH_WITH_ALL
-#endif
+/* SPH_IN_name: the module is in, with all that it needs */
+#define SPH_KNOB_IN(name, needs) SPH_IN_##name = SPH_WITH_##name && (needs),
+enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 
 /* modules that share code */
 #define SPH_HAS_FORCE_WALLS (SPH_WITH_WALL_LENNARD_JONES || SPH_WITH_WALL_KERNEL_FORCE || SPH_WITH_WALL_MONAGHAN_KOS)
@@ -218,10 +85,10 @@
 #define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */
 #define SPH_HAS_RUNGE_KUTTA (SPH_WITH_RUNGE_KUTTA || SPH_WITH_RUNGE_KUTTA_MOMENTUM)
 #define SPH_HAS_RATES_FIRST (SPH_WITH_KICK_DRIFT_KICK || SPH_WITH_LEAP_FROG) /* a sweep for the density of its own */
-
-#define SPH_HAS_HELD (SPH_WITH_SOLID && SPH_WITH_HELD)
 #define SPH_HAS_GROUPS (SPH_WITH_MOVING_WALLS || SPH_HAS_HELD)
 #define SPH_HAS_CORRECTION (SPH_WITH_SOLID && (SPH_WITH_CORRECTED || SPH_WITH_TOTAL_LAGRANGIAN))
+/* SPH_IN_... where the preprocessor asks */
+#define SPH_HAS_HELD (SPH_WITH_SOLID && SPH_WITH_HELD)
 #define SPH_HAS_TOTAL (SPH_WITH_SOLID && SPH_WITH_TOTAL_LAGRANGIAN)
 #define SPH_HAS_YIELD (SPH_WITH_SOLID && SPH_WITH_YIELD)
 #define SPH_HAS_DAMAGE (SPH_WITH_SOLID && SPH_WITH_DAMAGE && SPH_DIM > 1)

@@ -3,7 +3,7 @@
 #include "reference.h"
 
 #if SPH_HAS_TOTAL
-void sph_load_reference(const sph_run *r, sph_real *to, uint32_t row)
+void sph_load_reference(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const sph_buffer *b = r->b;
     sph_real *const body = to + (size_t)SPH_DIM * row;

@@ -25,7 +25,7 @@ SPH_INLINE const sph_reference_homes *sph_reference_homes_of(const sph_sim *sim,
     return (const sph_reference_homes *)(const void *)sph_home_columns_of(sim, t, SPH_COLUMN_reference);
 }
 #define sph_load_reference SPH_NAME(load_reference_)
-void sph_load_reference(const sph_run *r, sph_real *to, uint32_t row);
+void sph_load_reference(const sph_candidates *r, sph_real *to, uint32_t row);
 
 /* where a home was, and of which body it is */
 typedef struct sph_reference_home {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* setup.h: what setup.c, shapes.c, layers.c share: adding particles to a simulation that is not in the middle of a step. */
+/* setup.h: what the files of set-up share (setup.c): adding sets, groups and particles to a simulation that is not in the
+   middle of a step. */
 #ifndef SPH_SETUP_H
 #define SPH_SETUP_H
 
@@ -29,6 +30,12 @@ bool sph_setup_near_domain(const sph_sim *sim, int k, double lo, double hi);
 /* what the sweep reads of a set, from its constants; adds the set to the digest of the set-up */
 #define sph_setup_finish_set SPH_NAME(setup_finish_set_)
 void sph_setup_finish_set(sph_sim *sim, sph_set *s);
+/* a group of sets that move by `motion` or not at all (null), until removed; the caller has seen that there is room */
+#define sph_setup_add_group SPH_NAME(setup_add_group_)
+uint32_t sph_setup_add_group(sph_sim *sim, sph_motion motion, void *ctx);
+/* OK if the set is made of what moves by forces */
+#define sph_setup_check_body SPH_NAME(setup_check_body_)
+sph_status sph_setup_check_body(sph_sim *sim, uint32_t set);
 /* spacing^DIM */
 #define sph_setup_cell_volume SPH_NAME(setup_cell_volume_)
 double sph_setup_cell_volume(const sph_sim *sim);

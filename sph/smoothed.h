@@ -15,6 +15,6 @@ SPH_INLINE const sph_real *sph_smoothed_homes_of(const sph_sim *sim, const sph_t
     return sph_home_columns_of(sim, t, SPH_COLUMN_smoothed);
 }
 #define sph_load_smoothed SPH_NAME(load_smoothed_)
-void sph_load_smoothed(const sph_run *r, sph_real *to, uint32_t row);
+void sph_load_smoothed(const sph_candidates *r, sph_real *to, uint32_t row);
 
 #endif

@@ -4,7 +4,7 @@
 #include "smoothed.h"
 
 #if SPH_HAS_HAT
-void sph_load_smoothed(const sph_run *r, sph_real *to, uint32_t row)
+void sph_load_smoothed(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     for (uint32_t j = 0; j < r->n; j += SPH_W)
         for (uint32_t k = 0; k < SPH_DIM; k++) {

@@ -213,64 +213,16 @@ typedef struct sph_port {
     void (*fault)(void *ctx, const sph_report *report);   /* told of every failure, before it is returned */
 } sph_port;
 
+/* Its options, with what they mean, units, defaults and bounds, are the list in options.h: sph_config has a member of the
+   name of each, uint32_t for whole numbers and choices, double (of SPH_DIM along the axes), bool, and
+   uint32_t face[SPH_DIM][2]. */
+#include "options.h"
+
 typedef struct sph_config {
     uint32_t cookie; /* set by sph_config_default; a configuration not made by it is refused */
-
-    /* capacity */
-    uint32_t max_particles; /* fluid and wall particles together, 1 .. 2^30 */
-    uint32_t max_threads;   /* scratch for so many threads, 1 .. 256 */
-    uint32_t max_sets;      /* particle sets, 1 .. SPH_MAX_SETS (the default) */
-
-    /* domain: a box that holds everything, walls included (m) */
-    double lo[SPH_DIM], hi[SPH_DIM]; /* at least one spacing along every axis */
-    uint32_t face[SPH_DIM][2]; /* SPH_OPEN ... for the low and high face of each axis */
-    uint32_t on_leave;         /* SPH_FAIL, SPH_REMOVE */
-    uint32_t on_cross;         /* SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE */
-
-    /* interpolation */
-    uint32_t kernel;         /* SPH_CUBIC ... */
-    double spacing;          /* dx, initial particle spacing (m) */
-    double smoothing_length; /* h (m); usually 1.2 .. 2 dx */
-
-    /* fluid */
-    uint32_t scheme, density, eos;
-    bool pressure_floor;  /* p >= 0 */
-    double rho0;          /* rest density (kg/m^3) */
-    double sound_speed;   /* c0 (m/s); at least ten times the largest speed keeps density within 1 % */
-    uint32_t viscosity;
-    double alpha, beta;   /* artificial viscosity (-); Gray: beta = 3 alpha */
-    double nu;            /* kinematic viscosity (m^2/s), SPH_MORRIS */
-    uint32_t diffusion;
-    double delta;         /* density diffusion (-); 0.1 is usual */
-    double xsph;          /* XSPH factor (-), 0: off, 0.5 is usual (Gray 2.22) */
-    uint32_t shepard_every; /* Shepard density filter every so many steps, 0: never (Wickramarachchi 6.3) */
-    double gravity[SPH_DIM]; /* m/s^2 */
-
-    /* solids; fluids may be beside them, and take part in the same sums */
-    uint32_t solid;             /* SPH_NO_SOLID ... */
-    uint32_t yield, damage;     /* SPH_NO_YIELD ..., SPH_NO_DAMAGE ... */
-    uint32_t max_flaws;         /* capacity for flaws, all sets together, with damage: 1 .. 2^30 */
-    uint32_t artificial_stress; /* not with SPH_TOTAL, which needs none */
-    uint32_t stress_exponent;   /* n, 1 .. 8; 4 is usual */
-    double stress_epsilon;      /* epsilon, 0 .. 10; 0.3 is usual */
-    bool xsph_strain;           /* strain rates from the smoothed velocity (Gray 2001 eq 5.10; needs xsph; costs a sweep) */
-    double max_stretch;         /* SPH_TOTAL: how far a bond may be drawn, 1 .. 8 times the support; cells grow with it */
-
+    SPH_OPTIONS(SPH_OPTION_MEMBER, SPH_OPTION_MEMBER, )
     sph_body_force body_force;
     void *body_ctx;
-    double damping; /* velocities are multiplied by it in predictor and corrector; 1: none (Gray 2.29) */
-
-    /* time */
-    uint32_t integrator;
-    double dt;              /* fixed step (s); 0: controlled by the limits below */
-    double cfl;             /* Courant factor on h/(c0 + h max|mu|) (Wickramarachchi 3.88); the predictor-corrector takes
-                               less, down to 0.05, where viscosity and diffusion are too weak for it (fluid.c) */
-    double viscous_factor;  /* on h^2/nu_effective */
-    double force_factor;    /* on sqrt(h/max|a|) (3.89) */
-    double gravity_factor;  /* on h/(c0 + sqrt(g h)) (Gray 2.30) */
-    double dt_max, dt_min;  /* ceiling (0: none) and the floor below which the step counts as collapsed */
-
-    bool books; /* keep work and dissipation (adds 4 reals a particle) */
     sph_port port;
     sph_stage_log stage_log;
     void *stage_ctx;

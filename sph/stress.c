@@ -51,7 +51,7 @@ SPH_INLINE void tensile_part(const vreal *sigma, bool principal, vreal small, vr
 }
 
 /* sigma of W particles from index i on: -p I and, of solids, the deviator, after damage (Gray 2001 eqs 5.33, 5.34) */
-SPH_INLINE void stress_at(const sph_run *r, uint32_t i, vreal excess, vreal *s)
+SPH_INLINE void stress_at(const sph_candidates *r, uint32_t i, vreal excess, vreal *s)
 {
     const bool solid = sph_is_solid(r->set);
     vreal p = sph_pressure_of(r->set->eos, r->sim->cfg.pressure_floor && !solid, v_set(r->set->b_r), excess), kept[SPH_NS];
@@ -72,7 +72,7 @@ SPH_INLINE void stress_at(const sph_run *r, uint32_t i, vreal excess, vreal *s)
 }
 
 /* T with corrected gradients: -sigma M^-T over rho (standard) or 1 (weak) */
-SPH_INLINE void corrected_stress(const sph_run *r, uint32_t i, vreal rho, const vreal *s, vreal *t)
+SPH_INLINE void corrected_stress(const sph_candidates *r, uint32_t i, vreal rho, const vreal *s, vreal *t)
 {
     const vreal scale = sph_weak_scheme(r->sim->cfg.scheme) ? v_set(-1) : -1 / rho;
     for (int k = 0; k < SPH_DIM; k++)
@@ -85,7 +85,7 @@ SPH_INLINE void corrected_stress(const sph_run *r, uint32_t i, vreal rho, const 
 }
 
 /* R of W particles, where the scene has it */
-SPH_INLINE void load_repulsion(const sph_run *r, const vreal *s, vreal w, sph_real *to, uint32_t row)
+SPH_INLINE void load_repulsion(const sph_candidates *r, const vreal *s, vreal w, sph_real *to, uint32_t row)
 {
     const sph_sim *sim = r->sim;
     vreal part[SPH_NT];
@@ -98,7 +98,7 @@ SPH_INLINE void load_repulsion(const sph_run *r, const vreal *s, vreal w, sph_re
         }
 }
 
-void sph_load_stress(const sph_run *r, sph_real *to, uint32_t row)
+void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const sph_config *c = &r->sim->cfg;
     const bool weak = sph_weak_scheme(c->scheme), corrects = sph_corrects(c) && sph_is_solid(r->set);

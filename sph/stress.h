@@ -31,7 +31,7 @@ SPH_INLINE const sph_stress_homes *sph_stress_homes_of(const sph_sim *sim, const
     return (const sph_stress_homes *)(const void *)sph_home_columns_of(sim, t, SPH_COLUMN_stress);
 }
 #define sph_load_stress SPH_NAME(load_stress_)
-void sph_load_stress(const sph_run *r, sph_real *to, uint32_t row);
+void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row);
 /* stress.c: dS/dt of home i from its sums, and -tr L; raw: sum m_j v_ij (x) K g without the kernel's scale */
 #define sph_stress_rates SPH_NAME(stress_rates_)
 sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho);

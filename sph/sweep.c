@@ -24,7 +24,7 @@ SPH_INLINE bool asks_for(const filling *f, uint32_t set, bool ghosts)
 }
 
 /* the column sets of a run, from place `at` on */
-static __attribute__((noinline)) void load_sets(const filling *f, const sph_run *r, bool ghosts, bool homes)
+static __attribute__((noinline)) void load_sets(const filling *f, const sph_candidates *r, bool ghosts, bool homes)
 {
     const uint32_t room = homes ? SPH_HOME_ROOM : SPH_TILE_ROOM;
     for (uint32_t c = 0; c < SPH_COLUMN_COUNT; c++)
@@ -71,7 +71,7 @@ static void flush(filling *f, uint32_t role)
 }
 
 /* a run into its tile */
-static void load_run(filling *f, const sph_run *r, uint32_t role)
+static void load_run(filling *f, const sph_candidates *r, uint32_t role)
 {
     sph_thread *t = f->t;
     if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL) {
@@ -93,7 +93,7 @@ static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_
         if (*n == SPH_TILE)
             flush(f, role);
         const uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
-        const sph_run r = {f->sim, f->b, im, set, f->origin, s, take, role == SPH_ROLE_GHOST ? &f->t->ghosts : &f->t->bodies, *n};
+        const sph_candidates r = {f->sim, f->b, im, set, f->origin, s, take, role == SPH_ROLE_GHOST ? &f->t->ghosts : &f->t->bodies, *n};
         load_run(f, &r, role);
         *n += take;
         s += take;
@@ -226,7 +226,7 @@ static void load_homes(filling *f, uint32_t *s, uint32_t e)
             continue;
         }
         const uint32_t n = end - *s < SPH_HOMES - at ? end - *s : SPH_HOMES - at;
-        const sph_run r = {f->sim, f->b, &no_image, &f->sim->set[set], f->origin, *s, n, &t->home, at};
+        const sph_candidates r = {f->sim, f->b, &no_image, &f->sim->set[set], f->origin, *s, n, &t->home, at};
         sph_load_tile(&r, &t->home, f->w->needs_inv_rho, true);
         if (f->w->columns)
             load_sets(f, &r, false, true);

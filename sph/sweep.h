@@ -21,7 +21,7 @@ typedef struct sph_image {
 } sph_image;
 
 /* n particles of one set from index `first` on, seen through an image from the cell whose low corner is `origin` */
-typedef struct sph_run {
+typedef struct sph_candidates {
     const sph_sim *sim;
     const sph_buffer *b;
     const sph_image *im;
@@ -30,17 +30,17 @@ typedef struct sph_run {
     uint32_t first, n;
     const sph_tile *tile; /* the tile they stand in already, from place `at` on */
     uint32_t at;
-} sph_run;
+} sph_candidates;
 
 /* place of W particles along axis k, whose coordinate is q (quanta), from the home cell's low corner (m) */
-SPH_INLINE vreal sph_seen_place(const sph_run *r, uint32_t k, vint q)
+SPH_INLINE vreal sph_seen_place(const sph_candidates *r, uint32_t k, vint q)
 {
     const vint seen = q * v_set_int(r->im->sign[k]) + v_set_int(r->im->shift[k] - r->origin[k]);
     return v_from_int(seen) * v_set((sph_real)r->sim->grid.quantum);
 }
 /* component k of a vector, components k, l of a tensor, as the image shows them */
-SPH_INLINE vreal sph_seen_vector(const sph_run *r, uint32_t k, vreal v) { return v * r->im->flip[k]; }
-SPH_INLINE vreal sph_seen_tensor(const sph_run *r, uint32_t k, uint32_t l, vreal v)
+SPH_INLINE vreal sph_seen_vector(const sph_candidates *r, uint32_t k, vreal v) { return v * r->im->flip[k]; }
+SPH_INLINE vreal sph_seen_tensor(const sph_candidates *r, uint32_t k, uint32_t l, vreal v)
 {
     return r->im->is_image && k != l ? v * (sph_real)(r->im->sign[k] * r->im->sign[l]) : v;
 }
@@ -51,7 +51,7 @@ SPH_INLINE vreal sph_seen_tensor(const sph_run *r, uint32_t k, uint32_t l, vreal
 struct sph_column_set {
     uint8_t ghosts; /* 1: of ghosts; 0: of bodies, and of homes */
     uint8_t rows;
-    void (*load)(const sph_run *r, sph_real *to, uint32_t row);
+    void (*load)(const sph_candidates *r, sph_real *to, uint32_t row);
 };
 #define sph_column_table SPH_NAME(column_table_)
 extern const struct sph_column_set sph_column_table[SPH_COLUMN_COUNT];
@@ -84,9 +84,9 @@ uint32_t sph_local_chunks(const sph_sim *sim);
 
 /* tiles.c: the columns of every tile, for a run; `homes`: into the tile of homes */
 #define sph_load_tile SPH_NAME(load_tile_)
-void sph_load_tile(const sph_run *r, sph_tile *t, bool needs_inv_rho, bool homes);
+void sph_load_tile(const sph_candidates *r, sph_tile *t, bool needs_inv_rho, bool homes);
 #define sph_load_points SPH_NAME(load_points_)
-void sph_load_points(const sph_run *r, sph_points *t);
+void sph_load_points(const sph_candidates *r, sph_points *t);
 /* makes the columns behind the last candidate harmless: far away, without mass */
 #define sph_close_tile SPH_NAME(close_tile_)
 void sph_close_tile(const sph_sim *sim, sph_tile *t);

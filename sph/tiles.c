@@ -20,7 +20,7 @@ typedef struct tile_choice {
 
 /* Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by the
    next run or by sph_close_tile. */
-SPH_INLINE void load_columns(const sph_run *r, sph_tile *t, uint32_t copied, tile_choice c)
+SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copied, tile_choice c)
 {
     const sph_sim *sim = r->sim;
     const vreal m = v_set(r->set->mass_r), r0 = v_set(r->set->rho0_r), b = v_set(r->set->b_r);
@@ -61,7 +61,7 @@ SPH_INLINE void load_columns(const sph_run *r, sph_tile *t, uint32_t copied, til
         }
 }
 
-static __attribute__((noinline)) void load_any(const sph_run *r, sph_tile *t, bool inv_rho)
+static __attribute__((noinline)) void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
 {
     const sph_config *c = &r->sim->cfg;
     const tile_choice own = {r->set->eos, !sph_weak_scheme(c->scheme), c->pressure_floor && !sph_is_solid(r->set), inv_rho,
@@ -80,14 +80,14 @@ static __attribute__((noinline)) void load_any(const sph_run *r, sph_tile *t, bo
     X(wall, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                                           \
     X(wall_diffusive, true, true, SPH_HAS_LAYERED_WALLS, COPIED)
 #define SPH_FAST_FN(name, floor_, inv_rho_, wall_, copied)                                                         \
-    static __attribute__((noinline, unused)) void load_##name(const sph_run *r, sph_tile *t)                       \
+    static __attribute__((noinline, unused)) void load_##name(const sph_candidates *r, sph_tile *t)                       \
     {                                                                                                              \
         load_columns(r, t, copied, (tile_choice){SPH_TAIT, true, floor_, inv_rho_, wall_, false});                 \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
 #undef SPH_FAST_FN
 
-void sph_load_tile(const sph_run *r, sph_tile *t, bool inv_rho, bool homes)
+void sph_load_tile(const sph_candidates *r, sph_tile *t, bool inv_rho, bool homes)
 {
     const sph_config *c = &r->sim->cfg;
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST;
@@ -105,7 +105,7 @@ void sph_load_tile(const sph_run *r, sph_tile *t, bool inv_rho, bool homes)
     load_any(r, t, inv_rho);
 }
 
-void sph_load_points(const sph_run *r, sph_points *t)
+void sph_load_points(const sph_candidates *r, sph_points *t)
 {
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t j = 0; j < r->n; j += SPH_W)

@@ -49,7 +49,7 @@ one() {
 }
 
 # knobs, and sets of them, one a line: name flags
-knobs() { sed -n 's/^#define SPH_WITH_\([A-Z0-9_]*\) SPH_WITH_ALL$/\1/p' sph/modules.h; }
+knobs() { sed -n 's/^    X(\([A-Z0-9_]*\), .*/\1/p' sph/modules.h; }
 minimum="-DSPH_WITH_ALL=0 -DSPH_WITH_WENDLAND_C2=1 -DSPH_WITH_STANDARD=1 -DSPH_WITH_TAIT=1 -DSPH_WITH_PREDICTOR_CORRECTOR=1"
 list() {
     echo "everything|"

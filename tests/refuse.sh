@@ -9,7 +9,7 @@ dir=$BUILD/refuse bad=0 ran=0
 mkdir -p "$dir"
 echo "name,value,unit,target,ok" >"$BUILD/refuse.csv"
 
-# label | machine | flags that break (layout.c has the probe) | flags of linking and of refuse.c | what must be said
+# label | machine | flags that break (arithmetic.c has the probe) | flags of linking and of refuse.c | what must be said
 ways() {
     cat <<'END'
 sound|x86_64-gcc|||ok
@@ -42,7 +42,7 @@ answer() {
     case $cc in *clang*) ;; *) bits="$bits -fexcess-precision=fast" ;; esac
     defines="-I. -Itests -DSPH_DIM=${4%?} -DSPH_DOUBLE=$double"
     # shellcheck disable=SC2086
-    if ! $cc $bits $flags $2 $defines -c sph/layout.c -o "$dir/layout.o" >"$dir/log" 2>&1; then
+    if ! $cc $bits $flags $2 $defines -c sph/arithmetic.c -o "$dir/arithmetic.o" >"$dir/log" 2>&1; then
         grep -q 'error: .*sph ' "$dir/log" && echo "#error: $(grep -m1 'error: ' "$dir/log" | sed 's/.*sph /sph /')" || cat "$dir/log"
         return
     fi
@@ -51,7 +51,7 @@ answer() {
     case $3 in -D*) define=$3 ;; esac
     # shellcheck disable=SC2086
     { machine_link "$d" "$4" "$d/refuse_sound" tests/refuse.c && $cc $bits $flags $define $defines -c tests/refuse.c -o "$dir/refuse.o" &&
-        $cc $flags $3 "$dir/refuse.o" "$dir/layout.o" $(echo "$objects" | tr ' ' '\n' | grep -v layout.o) $extra -o "$dir/refuse"; } \
+        $cc $flags $3 "$dir/refuse.o" "$dir/arithmetic.o" $(echo "$objects" | tr ' ' '\n' | grep -v arithmetic.o) $extra -o "$dir/refuse"; } \
         >"$dir/log" 2>&1 || { cat "$dir/log"; return; }
     machine_run "$dir/refuse"
 }

@@ -27,54 +27,55 @@ typedef struct scene {
 #define scene_table SPH_NAME(scene_table)
 extern const scene *const scene_table[]; /* the scenes of this dimension; null-terminated */
 
-/* ---- parameters that every scene takes: p[SCENE_KERNEL] and so on -----------------------------------*/
+/* ---- parameters that every scene takes (scene_param.h), those that scenes read by name ----------------*/
 enum {
-    SCENE_KERNEL, SCENE_H, SCENE_SCHEME, SCENE_DENSITY, SCENE_EOS, SCENE_VISCOSITY, SCENE_ALPHA, SCENE_BETA, SCENE_NU,
-    SCENE_DIFFUSION, SCENE_DELTA, SCENE_XSPH, SCENE_SHEPARD, SCENE_INTEGRATOR, SCENE_WALL, SCENE_STRENGTH, SCENE_CROSS,
-    SCENE_DAMPING, SCENE_DAMP_STEPS, SCENE_DT, SCENE_CFL, SCENE_BOOKS, SCENE_FLOOR,
-    SCENE_COMMON
+    SCENE_KERNEL = SCENE_OF_kernel,
+    SCENE_H = SCENE_OF_smoothing_length,
+    SCENE_EOS = SCENE_OF_eos,
+    SCENE_VISCOSITY = SCENE_OF_viscosity,
+    SCENE_ALPHA = SCENE_OF_alpha,
+    SCENE_NU = SCENE_OF_nu,
+    SCENE_COMMON = SCENE_COMMON_COUNT
 };
-_Static_assert(SCENE_COMMON == SCENE_COMMON_COUNT, "scene_param.h must say how many common parameters there are");
 
-/* The first rows of a scene's parameter table, with the defaults in which scenes differ. SCENE_COMMON_PARAMS: as the theses step. The
-   others step as the lab found best (README, findings). */
-#define SCENE_COMMON_PARAMS(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_)   \
-    SCENE_PARAMS_OF(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_,           \
+/* The first rows of a scene's parameter table: a row for each option that is a parameter, from the list of options, and
+   the defaults in which scenes differ. SCENE_COMMON_PARAMS: as the theses step. The others step as the lab found best
+   (README, findings). */
+#define SCENE_COMMON_PARAMS(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_)  \
+    SCENE_PARAMS_OF(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_,          \
                     SPH_PREDICTOR_CORRECTOR, 0.25, 0)
-#define SCENE_PARAMS_OF(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_,       \
-                        integrator_, cfl_, floor_)                                                                     \
-    {"kernel", "-", "smoothing kernel: cubic quartic quintic gaussian wendland_c2 wendland_c4 hat", kernel_, 0,        \
-     SPH_KERNELS - 1, SCENE_CHOICE},                                                                                   \
-    {"h", "dx", "smoothing length in spacings", h_, 0.5, 10, SCENE_NUMBER},                                            \
-    {"scheme", "-", "momentum equation: standard weak direct standard_wick weak_wick", SPH_STANDARD, 0,                \
-     SPH_SCHEMES - 1, SCENE_CHOICE},                                                                                   \
-    {"density", "-", "density: continuity summation", SPH_CONTINUITY, 0, SPH_DENSITIES - 1, SCENE_CHOICE},             \
-    {"eos", "-", "equation of state: tait tait_gray linear isothermal", eos_, 0, SPH_EOSES - 1, SCENE_CHOICE},         \
-    {"viscosity", "-", "viscosity: inviscid artificial artificial_approaching morris", viscosity_, 0,                  \
-     SPH_VISCOSITIES - 1, SCENE_CHOICE},                                                                               \
-    {"alpha", "-", "artificial viscosity, linear part", alpha_, 0, 100, SCENE_NUMBER},                                 \
-    {"beta", "-", "artificial viscosity, quadratic part", 0, 0, 100, SCENE_NUMBER},                                    \
-    {"nu", "m^2/s", "kinematic viscosity; 0: what the scene's Reynolds number asks for", 0, 0, 1e6, SCENE_NUMBER},     \
-    {"diffusion", "-", "density diffusion: none molteni hydrostatic", diffusion_, 0, SPH_DIFFUSIONS - 1,               \
-     SCENE_CHOICE},                                                                                                    \
-    {"delta", "-", "strength of the density diffusion", 0.1, 0, 10, SCENE_NUMBER},                                     \
-    {"xsph", "-", "XSPH factor; 0: off", 0, 0, 1, SCENE_NUMBER},                                                       \
-    {"shepard", "steps", "Shepard density filter every so many steps; 0: never", 0, 0, 1e9, SCENE_WHOLE},              \
-    {"integrator", "-",                                                                                                \
-     "integrator: predictor_corrector kick_drift_kick leap_frog runge_kutta runge_kutta_momentum",                     \
-     integrator_, 0, SPH_INTEGRATORS - 1, SCENE_CHOICE},                                                   \
-    {"wall", "-", "walls: lennard_jones kernel_force monaghan_kos ghost ghost_compressible adami adami_no_slip",       \
-     wall_, 0, SCENE_WALLS - 1, SCENE_CHOICE},                                                                         \
-    {"strength", "-", "of a boundary force, in the wall's own units (sph.h, section 6); 0: the usual", 0, 0, 1e12,     \
-     SCENE_NUMBER},                                                                                                    \
-    {"cross", "-", "what to do with a particle found inside a wall: fail remove put_back ignore", SPH_PUT_BACK, 0,     \
-     SPH_POLICIES - 1, SCENE_CHOICE},                                                                                  \
-    {"damping", "-", "factor on velocities in predictor and corrector; 1: none", damping_, 0.5, 1, SCENE_NUMBER},      \
-    {"damp_steps", "steps", "how long damping acts; 0: to the end", damp_steps_, 0, 1e9, SCENE_WHOLE},                 \
-    {"dt", "s", "fixed time step; 0: controlled", 0, 0, 1e9, SCENE_NUMBER},                                            \
-    {"cfl", "-", "Courant factor", cfl_, 1e-3, 10, SCENE_NUMBER},                                                      \
-    {"books", "-", "keep work and dissipation: no yes", books_, 0, 1, SCENE_CHOICE},                                    \
-    {"floor", "-", "hold the pressure of fluids at 0 or above: no yes", floor_, 0, 1, SCENE_CHOICE}
+#define SCENE_PARAMS_OF(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_,      \
+                        integrator_, cfl_, floor_)                                                                    \
+    SPH_OPTIONS(SCENE_SKIP, SCENE_ROW, (kernel_, h_, eos_, viscosity_, alpha_, diffusion_, damping_, books_,          \
+                                        integrator_, cfl_, floor_))                                                   \
+    {"wall", "-", "walls: lennard_jones kernel_force monaghan_kos ghost ghost_compressible adami adami_no_slip",      \
+     wall_, 0, SCENE_WALLS - 1, SCENE_CHOICE},                                                                        \
+    {"strength", "-", "of a boundary force, in the wall's own units (sph.h, section 6); 0: the usual", 0, 0, 1e12,    \
+     SCENE_NUMBER},                                                                                                   \
+    {"damp_steps", "steps", "how long damping acts; 0: to the end", damp_steps_, 0, 1e9, SCENE_WHOLE}
+
+/* one row; a scene's own default comes out of the tuple that SCENE_PARAMS_OF hands through the list */
+#define SCENE_ROW(own, name, kind, start, low, high, in, allowed, change, unit, what, word, word_unit, min, max, whose) \
+    {word, word_unit, what, SCENE_START_##whose(own, name, start), min, max, SCENE_KIND_##kind},
+#define SCENE_START_USUAL(own, name, start) start
+#define SCENE_START_OWN(own, name, start) SCENE_OWN_##name own
+#define SCENE_OWN_kernel(kernel_, ...) kernel_
+#define SCENE_OWN_smoothing_length(kernel_, h_, ...) h_
+#define SCENE_OWN_eos(kernel_, h_, eos_, ...) eos_
+#define SCENE_OWN_viscosity(k, h, e, viscosity_, ...) viscosity_
+#define SCENE_OWN_alpha(k, h, e, v, alpha_, ...) alpha_
+#define SCENE_OWN_diffusion(k, h, e, v, a, diffusion_, ...) diffusion_
+#define SCENE_OWN_damping(k, h, e, v, a, d, damping_, ...) damping_
+#define SCENE_OWN_books(k, h, e, v, a, d, damping_, books_, ...) books_
+#define SCENE_OWN_integrator(k, h, e, v, a, d, damping_, books_, integrator_, ...) integrator_
+#define SCENE_OWN_cfl(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, ...) cfl_
+#define SCENE_OWN_pressure_floor(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, floor_) floor_
+#define SCENE_OWN_on_cross(...) SPH_PUT_BACK
+#define SCENE_KIND_WHOLE SCENE_WHOLE
+#define SCENE_KIND_CHOICE SCENE_CHOICE
+#define SCENE_KIND_BOOL SCENE_CHOICE
+#define SCENE_KIND_REAL SCENE_NUMBER
+#define SCENE_KIND_POSITIVE SCENE_NUMBER
 
 /* choices of `wall`; ghosts are "incompressible" unless they say otherwise */
 enum {

@@ -5,7 +5,19 @@
 
 #include <stdint.h>
 
-#define SCENE_COMMON_COUNT 23 /* parameters that every scene takes; they come first in its table */
+#include "../../sph/options.h"
+
+/* ---- parameters that every scene takes; they come first in its table: p[SCENE_OF_kernel], ... for the options of a
+   configuration that are parameters (sph/options.h), then those below ---- */
+#define SCENE_SKIP(A, name, ...)
+#define SCENE_NUMBER_OF(A, name, ...) SCENE_OF_##name,
+enum {
+    SPH_OPTIONS(SCENE_SKIP, SCENE_NUMBER_OF, )
+    SCENE_WALL,
+    SCENE_STRENGTH,
+    SCENE_DAMP_STEPS,
+    SCENE_COMMON_COUNT
+};
 
 enum { SCENE_NUMBER, SCENE_WHOLE, SCENE_CHOICE };
 

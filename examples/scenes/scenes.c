@@ -31,35 +31,30 @@
 SCENE_LIST(SCENE_DECLARED)
 const scene *const scene_table[] = {SCENE_LIST(SCENE_ENTRY) NULL};
 
+/* the options that are parameters */
+static void take_options(const double *p, sph_config *c)
+{
+#define TAKE(A, name, kind, ...) c->name = TAKE_##kind(p[SCENE_OF_##name]);
+#define TAKE_WHOLE(value) (uint32_t)(value)
+#define TAKE_CHOICE(value) (uint32_t)(value)
+#define TAKE_BOOL(value) (value) != 0
+#define TAKE_REAL(value) value
+#define TAKE_POSITIVE(value) value
+    SPH_OPTIONS(SCENE_SKIP, TAKE, )
+#undef TAKE
+}
+
 sph_config scene_config(const double *p, double dx, double rho0, double sound_speed)
 {
     sph_config c = sph_config_default();
+    take_options(p, &c);
     c.spacing = dx;
     c.smoothing_length = p[SCENE_H] * dx;
     c.rho0 = rho0;
     c.sound_speed = sound_speed;
-    c.kernel = (uint32_t)p[SCENE_KERNEL];
-    c.scheme = (uint32_t)p[SCENE_SCHEME];
-    c.density = (uint32_t)p[SCENE_DENSITY];
-    c.eos = (uint32_t)p[SCENE_EOS];
-    c.viscosity = (uint32_t)p[SCENE_VISCOSITY];
-    c.alpha = p[SCENE_ALPHA];
-    c.beta = p[SCENE_BETA];
-    c.nu = p[SCENE_NU];
-    c.diffusion = (uint32_t)p[SCENE_DIFFUSION];
-    c.delta = p[SCENE_DELTA];
-    c.xsph = p[SCENE_XSPH];
-    c.shepard_every = (uint32_t)p[SCENE_SHEPARD];
-    c.integrator = (uint32_t)p[SCENE_INTEGRATOR];
-    c.damping = p[SCENE_DAMPING];
-    c.dt = p[SCENE_DT];
-    c.cfl = p[SCENE_CFL];
     /* the limit with gravity (Gray 2.30) is a Courant number too, and shall not bind before the one that is asked for */
     c.gravity_factor = c.cfl > c.gravity_factor ? c.cfl : c.gravity_factor;
-    c.books = p[SCENE_BOOKS] != 0;
-    c.pressure_floor = p[SCENE_FLOOR] != 0;
     c.on_leave = SPH_REMOVE;
-    c.on_cross = (uint32_t)p[SCENE_CROSS];
     return c;
 }
 

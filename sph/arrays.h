@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* arrays.h: the one list of what a scene keeps in its arena beside the state of its particles (fields.h): the members
+   of the simulation that point to it, the layout of the arena and sph_arena_report follow from it.
+
+   A line: ONE(name, type, count, when, what), or MANY(name, type, components, count, when, what) for that many arrays;
+   count and condition are of the configuration `c` and its grid `g`. A module that the scene did not choose has no
+   array. */
+#ifndef SPH_ARRAYS_H
+#define SPH_ARRAYS_H
+
+#define SPH_SCENE_ARRAYS(ONE, MANY)                                                                                   \
+    ONE(set, sph_set, c->max_sets, true, "sets")                                                                      \
+    ONE(group, sph_group, SPH_MAX_GROUPS, true, "wall groups")                                                        \
+    ONE(thread, struct sph_thread, c->max_threads, true, "thread scratch")                                            \
+    ONE(material, sph_material, c->max_sets, sph_has_solids(c), "materials")                                          \
+    ONE(extra, sph_real, (size_t)c->max_threads * extra_reals(c, NULL), true, "thread scratch of columns")        \
+    ONE(cell, uint32_t, (size_t)g->cells + 2, true, "cell starts") /* cells + 1 of them are used */                   \
+    ONE(slab, uint32_t, (size_t)g->slabs + 1, true, "slab starts") /* in the source buffer */                         \
+    ONE(tmp, sph_real, SPH_ROOM(c), sph_filters(c) || sph_sums_density(c), "filtered density")                        \
+    MANY(corr, sph_real, SPH_NL, SPH_ROOM(c), sph_corrects(c), "gradient correction") /* M^-1, destination buffer */  \
+    /* by id: a particle's flaws are flaw[flaw_start[id] .. flaw_start[id + 1]) */                                    \
+    ONE(flaw_start, uint32_t, (size_t)c->max_particles + 1, sph_damages(c), "flaws of a particle")                    \
+    ONE(flaw, float, c->max_flaws, sph_damages(c), "flaws") /* thresholds */                                          \
+    /* viscous, wall, diffusion and body-force power of a particle */                                                 \
+    MANY(power, sph_real, SPH_POWERS, SPH_ROOM(c), sph_keeps_books(c), "powers for the books")                        \
+    /* SPH_PARTIALS of each chunk */                                                                                  \
+    ONE(partial, double, (size_t)SPH_PARTIALS * (c->max_particles / SPH_LOCAL_CHUNK + 1), sph_keeps_books(c),         \
+        "partial sums for the books")
+
+/* elements of an array with one for each particle */
+#define SPH_ROOM(c) ((size_t)(c)->max_particles + SPH_PAD)
+
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* initial.c: initial fields: velocity and density by a function of position, density by hydrostatic pressure. Runs between
+   steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be right. */
+#include "setup.h"
+
+#if SPH_WITH_FIELDS
+sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx)
+{
+    sph_status st = sph_setup_idle(sim, "sph_apply_field");
+    if (st || (st = sph_setup_check_body(sim, set)) != SPH_OK)
+        return st;
+    if (!fn)
+        return sph_setup_bad(sim, "fn", "a function", 0);
+    /* values wait in the buffer that is not in use until all were seen to be right */
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers];
+    double rho0 = sim->set[set].rho0;
+    for (uint32_t i = 0; i < sim->now.count; i++) {
+        if (b->set[0][i] != set)
+            continue;
+        double x[SPH_DIM], v[SPH_DIM], rho = rho0 * (1 + (double)b->rho[0][i]);
+        for (int k = 0; k < SPH_DIM; k++) {
+            x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
+            v[k] = (double)b->vel[k][i];
+        }
+        fn(ctx, x, v, &rho);
+        if ((st = sph_setup_check_vector(sim, "field velocity", v)) != SPH_OK)
+            return st;
+        if (!(rho > 0 && rho < 100 * rho0))
+            return sph_setup_bad(sim, "field density", "between 0 and 100 rho0", rho);
+        for (int k = 0; k < SPH_DIM; k++)
+            wait->vel[k][i] = (sph_real)v[k];
+        wait->rho[0][i] = (sph_real)((rho - rho0) / rho0);
+    }
+    for (uint32_t i = 0; i < sim->now.count; i++) {
+        if (b->set[0][i] != set)
+            continue;
+        for (int k = 0; k < SPH_DIM; k++)
+            b->vel[k][i] = wait->vel[k][i];
+        b->rho[0][i] = wait->rho[0][i];
+    }
+    sim->now.primed = false;
+    return SPH_OK;
+}
+
+sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface)
+{
+    sph_status st = sph_setup_idle(sim, "sph_apply_hydrostatic");
+    if (st || (st = sph_setup_check_body(sim, set)) != SPH_OK)
+        return st;
+    int axis = -1;
+    for (int k = 0; k < SPH_DIM; k++)
+        if (sim->cfg.gravity[k] != 0) {
+            if (axis >= 0)
+                return sph_setup_bad(sim, "gravity", "along one axis", sim->cfg.gravity[k]);
+            axis = k;
+        }
+    if (axis < 0 || !(sph_abs(surface) < 1e15))
+        return sph_setup_bad(sim, "surface", "finite, with gravity along one axis", surface);
+    const sph_set *s = &sim->set[set];
+    double g = sim->cfg.gravity[axis];
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers]; /* as sph_apply_field */
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        if (b->set[0][i] == set) {
+            double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->grid.quantum;
+            double p = s->rho0 * g * (x - surface); /* g < 0: below the surface p > 0 */
+            double d = sph_density_of(s, p > 0 ? p : 0);
+            if (!(d >= -1 && d < 99))
+                return sph_setup_bad(sim, "surface", "a depth at which density stays below 100 rho0", surface);
+            wait->rho[0][i] = (sph_real)d;
+        }
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        if (b->set[0][i] == set)
+            b->rho[0][i] = wait->rho[0][i];
+    sim->now.primed = false;
+    return SPH_OK;
+}
+#endif

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* state.c: what every file above may ask of a simulation: a failure reported with the pass it happened in, and the
+   digest of a state buffer. */
+#include "internal.h"
+
+/* each knob is 0 or 1, and what the preprocessor takes a module for agrees with what the list of knobs says it needs */
+#define KNOB(name, needs) _Static_assert(SPH_WITH_##name == 0 || SPH_WITH_##name == 1, "a knob is 0 or 1: " #name);
+SPH_KNOBS(KNOB)
+#undef KNOB
+_Static_assert(SPH_HAS_HELD == SPH_IN_HELD && SPH_HAS_TOTAL == SPH_IN_TOTAL_LAGRANGIAN && SPH_HAS_YIELD == SPH_IN_YIELD &&
+                   SPH_HAS_DAMAGE == SPH_IN_DAMAGE && SPH_HAS_REPULSION == SPH_IN_ARTIFICIAL_STRESS &&
+                   SPH_HAS_HAT == SPH_IN_XSPH_STRAIN,
+               "modules.h: SPH_HAS_... and the needs of its list differ");
+
+sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle)
+{
+    if (!sim)
+        return SPH_BAD_ARGUMENT;
+    const char *pass = sim->begun && sim->pc < sim->passes ? sim->program[sim->pc]->name : "";
+    return sph_raise(&sim->report, &sim->cfg.port, &(sph_report){s, what, allowed, pass, value, particle});
+}
+
+uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n)
+{
+    uint64_t h = 0x5350482d68617368u;
+    (void)sim;
+#define MIX(name, type, comps, unit, when, way)                                                                       \
+    for (uint32_t k = 0; k < (comps); k++)                                                                            \
+        if (b->name[k])                                                                                               \
+            h = sph_mix_array(h, b->name[k], sizeof(type), n);
+    SPH_STATE_FIELDS(MIX)
+#undef MIX
+    return h;
+}
