@@ -36,9 +36,13 @@ SPH_INLINE void adami_pair(const void *what, uint32_t j, vreal *s)
 }
 static void adami_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
+    static const bool standard = true;
     const bool ratio = !sph_weak_scheme(sim->cfg.scheme);
     (void)role;
-    sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &ratio);
+    if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && ratio)
+        sph_gather_by(SPH_WENDLAND_C2, sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &standard);
+    else
+        sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &ratio);
 }
 
 static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)

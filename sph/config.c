@@ -39,6 +39,14 @@ static sph_status check_fluids(const sph_config *c, sph_report *r)
         return sph_refuse(r, "nu", ">= 0, and > 0 for SPH_MORRIS", c->nu);
     if (SPH_IS(c->density, SUMMATION) && (c->diffusion || c->shepard_every))
         return sph_refuse(r, "density", "SPH_CONTINUITY when diffusion or the Shepard filter is on", c->density);
+    if (!sph_corrects_fluids(c))
+        return SPH_OK;
+    if (c->density != SPH_CONTINUITY)
+        return sph_refuse(r, "density", "SPH_CONTINUITY where gradients of fluids are corrected", c->density);
+    if (sph_has_solids(c))
+        return sph_refuse(r, "gradient", "SPH_PLAIN in scenes with solids", c->gradient);
+    if (SPH_IS(c->gradient, BONET_LOK) && c->scheme != SPH_STANDARD && c->scheme != SPH_WEAK)
+        return sph_refuse(r, "scheme", "SPH_STANDARD or SPH_WEAK with SPH_BONET_LOK", c->scheme);
     return SPH_OK;
 }
 

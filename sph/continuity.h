@@ -24,7 +24,7 @@ SPH_INLINE void sph_continuity(const sph_choice *c, const sph_factors *f, const 
 {
     if (c->solid)
         return;
-    vreal rate = p->mg * p->vr;
+    vreal rate = p->mg * p->vc;
     if (sph_weak_scheme(c->scheme))
         rate = rate * p->inv_rho;
     if (SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK))

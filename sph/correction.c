@@ -117,7 +117,7 @@ static void correction_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     sph_real m[SPH_DIM][SPH_DIM], inv[SPH_DIM][SPH_DIM];
     for (int k = 0; k < SPH_NL; k++)
         m[k / SPH_DIM][k % SPH_DIM] = -v_fold(t->sum[SUM_M + k][h]) * sim->fac.slope;
-    const bool fine = sph_invert((const sph_real(*)[SPH_DIM])m, inv);
+    const bool fine = sph_invert((const sph_real(*)[SPH_DIM])m, inv, 0);
     for (int k = 0; k < SPH_NL; k++)
         sim->corr[k][i] = fine ? inv[k / SPH_DIM][k % SPH_DIM] : k % (SPH_DIM + 1) == 0 ? plain : 0;
     if (SPH_HAS_TOTAL && sph_is_total(&sim->cfg))

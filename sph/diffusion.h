@@ -20,7 +20,7 @@ SPH_INLINE void sph_diffusion(const sph_choice *c, const sph_factors *f, const s
     }
     /* (rho_j - rho_i) x_ji . grad W = (rho_i - rho_j) r^2 g; the sum rho_i + rho_j in inv is taken out again */
     p->diff = dr * (p->r2 * p->inv * (h->rho + p->rho)) * p->mg * p->inv_rho * f->diff;
-    s[SUM_DRHO] = s[SUM_DRHO] + (sph_weak_scheme(c->scheme) ? p->diff * h->inv_rho : p->diff);
+    s[SUM_DRHO] = s[SUM_DRHO] + (sph_rate_by_density(c->scheme, c->gradient) ? p->diff * h->inv_rho : p->diff);
 }
 
 #endif

@@ -32,8 +32,8 @@ double sph_courant_factor(const sph_config *c)
     d += SPH_IS(c->viscosity, MORRIS) ? c->nu / (c->smoothing_length * c->sound_speed) : sph_viscous(c->viscosity) ? c->alpha / 8 : 0;
     const double x = d / PC_DISSIPATION;
     double stands = x < 1e-3 ? 0 : x > 1e6 ? PC_COURANT * 100 : PC_COURANT * cube_root(x);
-    if (sph_has_solids(c))
-        stands *= sph_corrects(c) ? PC_CORRECTED : PC_UPDATED;
+    if (sph_has_solids(c) || sph_corrects_fluids(c))
+        stands *= sph_corrects(c) || sph_corrects_fluids(c) ? PC_CORRECTED : PC_UPDATED;
     stands = stands < PC_COURANT_LEAST ? PC_COURANT_LEAST : stands;
     return c->cfl < stands ? c->cfl : stands;
 }
@@ -70,7 +70,7 @@ void sph_make_factors(sph_sim *sim)
         f->hydro[k] = SPH_IS(c->diffusion, HYDROSTATIC) ? (sph_real)(c->rho0 * c->gravity[k] / c2) : 0;
     }
     sim->courant = sph_courant_factor(c);
-    f->rate_by_density = sph_weak_scheme(c->scheme);
+    f->rate_by_density = sph_weak_scheme(c->scheme) || SPH_IS(c->gradient, BONET_LOK);
     f->continuity = !sph_sums_density(c);
     f->extras = SPH_HAS_EXTRAS && (sph_uses_xsph(c) || (SPH_WITH_BODY_FORCE && c->body_force) || sph_keeps_books(c));
     if (SPH_WITH_STANDARD_WICK || SPH_WITH_WEAK_WICK)

@@ -4,7 +4,8 @@
 
      continuity.h   rate of density             viscosity.h    artificial, Morris            diffusion.h    of density
      pressure.h     force of the pressure       stress.h       force of the stress, and the velocity gradient
-     reference.h    reference positions, contact of bodies     xsph.h    drift beside the velocity     pair_power.h   the books
+     gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
+     xsph.h         drift beside the velocity   pair_power.h   the books
 
    The same text is compiled with the choices as constants (a line of SPH_FAST_FORCES each) and with choices read at run time (two
    general forms: without solids and with them). Arrays: none but the state's acc, drho, xsph and the powers of the books.
@@ -13,6 +14,7 @@
 #include "boundary.h"
 #include "continuity.h"
 #include "diffusion.h"
+#include "gradient.h"
 #include "pair_power.h"
 #include "pressure.h"
 #include "reference.h"
@@ -30,8 +32,9 @@ typedef struct at_home {
     const sph_mirror_tile *mirror;
     const sph_stress_tile *stress;
     const sph_reference_tile *reference;
-    const sph_real *smoothed;
+    const sph_real *smoothed, *corrected;
     const sph_home *home;
+    const sph_gradient_home *gradient;
     const sph_stress_home *solid;
     const sph_reference_home *was;
 } at_home;
@@ -41,7 +44,7 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
 {
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
-        p->kx[k] = p->dx[k] = o->home->x[k] - v_load(o->tile->x[k] + p->j);
+        p->kx[k] = p->ex[k] = p->dx[k] = o->home->x[k] - v_load(o->tile->x[k] + p->j);
     p->r2 = sph_dot(p->dx, p->dx);
     vreal k2 = p->r2;
     if (SPH_HAS_TOTAL && o->c->solid && o->c->total && !o->c->wall) {
@@ -59,7 +62,8 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         p->dv[k] = p->dw[k] = o->home->v[k] - v_load(o->tile->v[k] + p->j);
-    p->vr = sph_dot(p->dv, p->dx);
+    p->vr = p->vc = p->ve = sph_dot(p->dv, p->dx);
+    sph_corrected_distance(o->c, o->gradient, o->corrected, p);
     return true;
 }
 
@@ -72,12 +76,12 @@ SPH_INLINE void kernel(const at_home *o, sph_near *p)
     p->inv_rho = sph_needs_inv_rho(o->c->scheme, o->c->diffusion) ? v_load(o->tile->inv_rho + p->j) : p->rho;
 }
 
-/* what pressure, contact and viscosity push along x_ij, and Morris's drag */
+/* what pressure, contact and viscosity push, and Morris's drag */
 SPH_INLINE void momentum(const sph_choice *c, const sph_near *p, vreal *s)
 {
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
-        s[SUM_ACC + k] = s[SUM_ACC + k] + p->force * p->dx[k];
+        s[SUM_ACC + k] = s[SUM_ACC + k] + p->force * p->ex[k];
         if (SPH_IS(c->viscosity, MORRIS))
             s[SUM_ACC + k] = s[SUM_ACC + k] - p->fm * p->dw[k];
     }
@@ -100,6 +104,7 @@ SPH_INLINE void pair(const void *what, uint32_t j, vreal *s)
     sph_continuity(c, o->f, o->home, &p, s);
     sph_stress_force(c, o->f, o->home, o->solid, o->stress, o->smoothed, &p, s);
     sph_pressure_force(c, o->home, &p);
+    sph_corrected_pressure(c, o->home, o->gradient, o->corrected, &p, s);
     sph_contact(c, o->f, o->home, &p);
     sph_inverse_distance(c, o->f, o->home, &p);
     sph_viscosity(c, o->f, o->home, o->mirror, &p, s);
@@ -120,9 +125,15 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c)
 SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_home home = sph_spread_home(&t->home, h);
-    at_home o = {c, f, c->wall ? &t->ghosts : &t->bodies, NULL, NULL, NULL, NULL, &home, NULL, NULL};
+    at_home o = {.c = c, .f = f, .tile = c->wall ? &t->ghosts : &t->bodies, .home = &home};
     if (SPH_HAS_LAYERED_WALLS && c->wall)
         o.mirror = sph_mirror_of(sim, t);
+    sph_gradient_home gradient;
+    if (SPH_HAS_FLUID_GRADIENT && c->gradient) {
+        o.corrected = sph_columns_of(sim, t, SPH_COLUMN_gradient);
+        gradient = sph_spread_gradient(sim, t, h);
+        o.gradient = &gradient;
+    }
     sph_stress_home solid;
     if (SPH_WITH_SOLID && c->solid) {
         o.stress = sph_stress_tile_of(sim, t);
@@ -141,106 +152,146 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
 
 /* ---- general forms: every choice read at run time ---- */
 
-/* the form that covers all fluids */
+/* in small builds one text for bodies and ghosts, else one each */
+SPH_INLINE void force_general(sph_choice c, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const bool wall = SPH_HAS_LAYERED_WALLS && c.wall;
+    c.wall = wall;
+    if (SPH_SMALL) {
+        force_home(&c, &sim->fac, sim, t, h);
+    } else if (wall) {
+        c.wall = true;
+        force_home(&c, &sim->fac, sim, t, h);
+    } else {
+        c.wall = false;
+        force_home(&c, &sim->fac, sim, t, h);
+    }
+}
+/* the form that covers fluids; corrected gradients; scenes with solids */
 static __attribute__((noinline)) void force_fluid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = false;
-    own.repulsion = 0;
-    own.wall = SPH_HAS_LAYERED_WALLS && own.wall;
-    if (SPH_SMALL)
-        force_home(&own, &sim->fac, sim, t, h);
-    else if (SPH_HAS_LAYERED_WALLS && own.wall) {
-        own.wall = true;
-        force_home(&own, &sim->fac, sim, t, h);
-    } else {
-        own.wall = false;
-        force_home(&own, &sim->fac, sim, t, h);
-    }
+    own.solid = own.total = own.hat = own.repulsion = own.gradient = 0;
+    force_general(own, sim, t, h);
 }
-
-/* the form that covers all scenes with solids */
+static __attribute__((noinline, unused)) void force_corrected(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    sph_choice own = *c;
+    own.solid = own.total = own.hat = own.repulsion = 0;
+    force_general(own, sim, t, h);
+}
 static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = true;
+    own.gradient = 0;
     own.total = SPH_HAS_TOTAL && own.total;
     own.hat = SPH_HAS_HAT && own.hat;
     own.repulsion = SPH_HAS_REPULSION ? own.repulsion : 0;
-    own.wall = SPH_HAS_LAYERED_WALLS && own.wall;
-    if (SPH_SMALL)
-        force_home(&own, &sim->fac, sim, t, h);
-    else if (SPH_HAS_LAYERED_WALLS && own.wall) {
-        own.wall = true;
-        force_home(&own, &sim->fac, sim, t, h);
-    } else {
-        own.wall = false;
-        force_home(&own, &sim->fac, sim, t, h);
-    }
+    force_general(own, sim, t, h);
 }
 
 /* ---- fast paths: the same text with the choices as constants; a line adds a path ---- */
 
-/* standard scheme, no beta, no XSPH: name, kernel, viscosity, diffusion, books, wall, solid, exponent of the artificial stress,
-   reference positions */
+/* name, and the choices that are not 0 (standard scheme, no diffusion, no beta, no XSPH ...) */
 #define SPH_FAST_FORCES(X)                                                                                         \
-    X(w2, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, false, 0, false)                        \
-    X(w2_h, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, false, false, false, 0, false)                       \
-    X(w2_hb, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, SPH_WITH_BOOKS, false, false, 0, false)             \
-    X(w2_w, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, SPH_HAS_LAYERED_WALLS, false, 0, false)      \
-    X(w2_hw, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, false, SPH_HAS_LAYERED_WALLS, false, 0, false)      \
-    X(w2_hbw, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_HYDROSTATIC, SPH_WITH_BOOKS, SPH_HAS_LAYERED_WALLS, false, 0, false) \
-    X(cubic, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, false, 0, false)                           \
-    X(s_cubic, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 0, false)                \
-    X(s_cubic_r, SPH_CUBIC, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 4, false)              \
-    X(s_w2, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 0, false)             \
-    X(s_w2_r, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 4, false)           \
-    X(s_w2_t, SPH_WENDLAND_C2, SPH_ARTIFICIAL, SPH_NO_DIFFUSION, false, false, SPH_WITH_SOLID, 0, SPH_HAS_TOTAL)
+    X(w2, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL)                                                  \
+    X(w2_w, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = 1)                                     \
+    X(w2_h, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC)                  \
+    X(w2_hw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .wall = 1)      \
+    X(w2_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1)     \
+    X(w2_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1) \
+    X(cubic, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL)
+#define SPH_FAST_CORRECTED(X)                                                                                      \
+    X(c, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK)                        \
+    X(c_w, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK, .wall = 1)           \
+    X(c_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                     \
+      .diffusion = SPH_HYDROSTATIC, .books = 1)                                                                    \
+    X(c_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                    \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1)
+#define SPH_FAST_SOLIDS(X)                                                                                         \
+    X(s_cubic, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1)                                       \
+    X(s_cubic_r, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1, .repulsion = 4)                     \
+    X(s_w2, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1)                                    \
+    X(s_w2_r, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .repulsion = 4)                  \
+    X(s_w2_t, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .total = 1)
 
-#define SPH_FAST_FN(name, kernel_, visc, diff, books_, wall_, solid_, power, total_)                               \
-    static __attribute__((noinline, unused)) void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)  \
+#define SPH_FAST_FN(name, ...)                                                                                     \
+    static __attribute__((noinline)) void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)          \
     {                                                                                                              \
-        static const sph_choice c = {.kernel = kernel_, .viscosity = visc, .diffusion = diff, .books = books_,     \
-                                     .wall = wall_, .solid = solid_, .total = total_, .repulsion = power};         \
+        static const sph_choice c = {__VA_ARGS__};                                                                 \
         const sph_factors own = sim->fac;                                                                          \
         for (uint32_t h = 0; h < homes; h++)                                                                       \
-            if (!(wall_) || sph_is_body(&sim->set[t->home_set[h]]))                                                \
+            if (!c.wall || sph_is_body(&sim->set[t->home_set[h]]))                                                 \
                 force_home(&c, &own, sim, t, h);                                                                   \
     }
+#define SPH_FAST_ROW(name, ...) {{__VA_ARGS__}, force_##name},
+typedef void fast_path(const sph_sim *sim, sph_thread *t, uint32_t homes);
+#if SPH_WITH_FAST_PATHS
 SPH_FAST_FORCES(SPH_FAST_FN)
-#undef SPH_FAST_FN
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_BONET_LOK
+SPH_FAST_CORRECTED(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SOLID
+SPH_FAST_SOLIDS(SPH_FAST_FN)
+#endif
+static const struct {
+    sph_choice c;
+    fast_path *run;
+} fast_paths[] = {
+#if SPH_WITH_FAST_PATHS
+    SPH_FAST_FORCES(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_BONET_LOK
+    SPH_FAST_CORRECTED(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SOLID
+    SPH_FAST_SOLIDS(SPH_FAST_ROW)
+#endif
+    {{0}, NULL}};
+
+static bool same_choice(const sph_choice *a, const sph_choice *b)
+{
+    const unsigned char *p = (const unsigned char *)a, *q = (const unsigned char *)b;
+    uint32_t k = 0;
+    while (k < sizeof *a && p[k] == q[k])
+        k++;
+    return k == sizeof *a;
+}
+
+/* the fast path of these choices, or null */
+static fast_path *fast_path_of(const sph_choice *c)
+{
+    uint32_t k = 0;
+    while (fast_paths[k].run && !same_choice(&fast_paths[k].c, c))
+        k++;
+    return fast_paths[k].run;
+}
 
 /* the choices of a scene, of bodies or of ghosts */
 static sph_choice choice_of(const sph_sim *sim, bool wall)
 {
     const sph_config *c = &sim->cfg;
-    const bool hat = sph_smooths_strain(c);
-    return (sph_choice){c->kernel, c->scheme, c->viscosity, c->diffusion, wall, c->beta != 0, sph_uses_xsph(c) && !hat,
-                        sph_keeps_books(c), sph_has_solids(c), sph_is_total(c), hat, sph_repels(c) ? c->stress_exponent : 0};
-}
-
-/* the fast path of these choices; false if there is none */
-static bool force_fast(const sph_sim *sim, const sph_choice *c, sph_thread *t, uint32_t homes)
-{
-    if (!SPH_WITH_FAST_PATHS || !SPH_IS(c->scheme, STANDARD) || c->beta || c->xsph || c->hat)
-        return false;
-#define SPH_FAST_TRY(name, kernel_, visc, diff, books_, wall_, solid_, power, total_)                              \
-    if (c->kernel == (kernel_) && c->viscosity == (visc) && c->diffusion == (diff) && c->books == (books_) &&      \
-        c->wall == (wall_) && c->solid == (solid_) && c->repulsion == (power) && c->total == (total_)) {           \
-        force_##name(sim, t, homes);                                                                               \
-        return true;                                                                                               \
-    }
-    SPH_FAST_FORCES(SPH_FAST_TRY)
-#undef SPH_FAST_TRY
-    return false;
+    const bool hat = sph_smooths_strain(c), repels = sph_repels(c);
+    return (sph_choice){.kernel = (uint8_t)c->kernel,       .scheme = (uint8_t)c->scheme,
+                        .viscosity = (uint8_t)c->viscosity, .diffusion = (uint8_t)c->diffusion,
+                        .gradient = (uint8_t)c->gradient,   .wall = wall,
+                        .beta = c->beta != 0,               .xsph = sph_uses_xsph(c) && !hat,
+                        .books = sph_keeps_books(c),        .solid = sph_has_solids(c),
+                        .total = sph_is_total(c),           .hat = hat,
+                        .repulsion = (uint8_t)(repels ? c->stress_exponent : 0)};
 }
 
 /* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over bodies only; its acceleration is not used. */
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
     const sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
-    if (role != SPH_ROLE_FORCE_WALL && force_fast(sim, &c, t, homes))
+    fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&c);
+    if (fast) {
+        fast(sim, t, homes);
         return;
+    }
     for (uint32_t h = 0; h < homes; h++) {
         if (role != SPH_ROLE_FLUID && !sph_is_body(&sim->set[t->home_set[h]]))
             continue;
@@ -248,6 +299,8 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
             sph_boundary_force(sim, t, h);
         else if (SPH_WITH_SOLID && c.solid)
             force_solid(&c, sim, t, h);
+        else if (SPH_HAS_FLUID_GRADIENT && c.gradient)
+            force_corrected(&c, sim, t, h);
         else
             force_fluid(&c, sim, t, h);
     }
@@ -379,7 +432,7 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          sph_needs_inv_rho(c.scheme, c.diffusion),
                          (SPH_HAS_LAYERED_WALLS && sph_viscous(c.viscosity) ? 1u << SPH_COLUMN_mirror : 0) |
                              (c.solid ? 1u << SPH_COLUMN_stress : 0) | (c.total ? 1u << SPH_COLUMN_reference : 0) |
-                             (c.hat ? 1u << SPH_COLUMN_smoothed : 0),
+                             (c.hat ? 1u << SPH_COLUMN_smoothed : 0) | (c.gradient ? 1u << SPH_COLUMN_gradient : 0),
                          force_tile,
                          force_finish};
     sph_sweep_chunk(sim, &w, chunk, t);

@@ -36,6 +36,8 @@
     X(MORRIS, 1)                                                                                           \
     X(MOLTENI, 1) /* density diffusion */                                                                  \
     X(HYDROSTATIC, 1)                                                                                      \
+    X(BONET_LOK, 1) /* corrected gradients of fluids */                                                    \
+    X(RENORMALISED, 1)                                                                                     \
     X(PREDICTOR_CORRECTOR, 1) /* integrators */                                                            \
     X(KICK_DRIFT_KICK, 1)                                                                                  \
     X(LEAP_FROG, 1)                                                                                        \
@@ -80,6 +82,7 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_HAS_WALLS (SPH_HAS_FORCE_WALLS || SPH_HAS_LAYERED_WALLS)
 #define SPH_HAS_MIRRORS (SPH_WITH_SYMMETRY || SPH_WITH_MIRROR_NO_SLIP)
 #define SPH_HAS_IMAGES (SPH_WITH_PERIODIC || SPH_HAS_MIRRORS)
+#define SPH_HAS_FLUID_GRADIENT (SPH_WITH_BONET_LOK || SPH_WITH_RENORMALISED)
 #define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
 #define SPH_HAS_FILTERS (SPH_WITH_SHEPARD || SPH_WITH_SUMMATION)
 #define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */

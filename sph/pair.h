@@ -69,6 +69,11 @@ SPH_INLINE void sph_gather_distance(const sph_gather *g, uint32_t j, vreal *dx)
     for (int k = 0; k < SPH_DIM; k++)
         dx[k] = v_set(g->t->home.x[k][g->h]) - v_load(g->tile->x[k] + j);
 }
+/* (dW/dr)/r without the scale of the kernel */
+SPH_INLINE vreal sph_gather_slope(const sph_gather *g, const vreal *dx)
+{
+    return k_slope(g->kernel, v_sqrt(sph_dot(dx, dx)) * g->inv_h);
+}
 /* W_ij without the scale of the kernel */
 SPH_INLINE vreal sph_gather_value(const sph_gather *g, const vreal *dx)
 {
@@ -76,13 +81,18 @@ SPH_INLINE vreal sph_gather_value(const sph_gather *g, const vreal *dx)
 }
 
 /* all homes over one tile: the sums of the mask go up by what `pair` adds */
+SPH_INLINE void sph_gather_by(uint32_t kernel, const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t homes,
+                              uint32_t sums, sph_pair_fn pair, const void *own)
+{
+    for (uint32_t h = 0; h < homes; h++) {
+        const sph_gather g = {t, tile, h, kernel, v_set(sim->fac.inv_h), own};
+        sph_sum_home(t, h, tile->n, sums, pair, &g);
+    }
+}
 SPH_INLINE void sph_gather_tile(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t homes, uint32_t sums,
                                 sph_pair_fn pair, const void *own)
 {
-    for (uint32_t h = 0; h < homes; h++) {
-        const sph_gather g = {t, tile, h, sim->cfg.kernel, v_set(sim->fac.inv_h), own};
-        sph_sum_home(t, h, tile->n, sums, pair, &g);
-    }
+    sph_gather_by(sim->cfg.kernel, sim, t, tile, homes, sums, pair, own);
 }
 SPH_INLINE const sph_tile *sph_tile_of(const sph_thread *t, uint32_t role)
 {

@@ -11,14 +11,14 @@ SPH_INLINE void sph_pair_power(const sph_choice *c, const sph_near *p, vreal *s)
 {
     if (!SPH_WITH_BOOKS || !c->books)
         return;
-    const vreal viscous = SPH_IS(c->viscosity, MORRIS) ? -(p->fm * sph_dot(p->dw, p->dv)) : -(p->visc * p->vr);
+    const vreal viscous = SPH_IS(c->viscosity, MORRIS) ? -(p->fm * sph_dot(p->dw, p->dv)) : -(p->visc * p->ve);
     s[SUM_VISCOUS] = s[SUM_VISCOUS] + (c->wall ? viscous : viscous * (sph_real)0.5);
     s[SUM_DIFFUSED] = s[SUM_DIFFUSED] + p->diff;
     if (!c->wall)
         return;
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
-        s[SUM_WALL] = s[SUM_WALL] + (p->force * p->dx[k] - p->fm * p->dw[k]) * v_load(p->tile->v[k] + p->j);
+        s[SUM_WALL] = s[SUM_WALL] + (p->force * p->ex[k] - p->fm * p->dw[k]) * v_load(p->tile->v[k] + p->j);
 }
 
 #endif

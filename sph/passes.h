@@ -13,7 +13,8 @@
 #define sph_pass_count SPH_NAME(pass_count_)
 #define sph_pass_scatter SPH_NAME(pass_scatter_)
 #define sph_pass_correction SPH_NAME(pass_correction_)
+#define sph_pass_gradient SPH_NAME(pass_gradient_)
 #define sph_pass_smooth SPH_NAME(pass_smooth_)
-extern const sph_pass sph_pass_summation, sph_pass_shepard, sph_pass_copy_density, sph_pass_adami, sph_pass_adami_copy, sph_pass_count, sph_pass_scatter, sph_pass_correction, sph_pass_smooth;
+extern const sph_pass sph_pass_summation, sph_pass_shepard, sph_pass_copy_density, sph_pass_adami, sph_pass_adami_copy, sph_pass_count, sph_pass_scatter, sph_pass_correction, sph_pass_gradient, sph_pass_smooth;
 
 #endif

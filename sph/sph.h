@@ -34,7 +34,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 2u /* 1: without solids */
+#define SPH_VERSION 3u /* 1: without solids */
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
@@ -161,6 +161,13 @@ enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH
    r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
    two positions is taken off first (Fourtakas et al. 2019, linearised), so still water stays still. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
+
+/* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of density, and
+   the pressure force that does the same work (Bonet & Lok 1999; schemes STANDARD and WEAK); momentum, angular momentum and
+   energy stay. RENORMALISED: (B_i + B_j)/2 x_ij g in continuity, pressure and artificial viscosity (Wickramarachchi 2009 eqs
+   4.8-4.20); momentum and energy stay. Both cost a sweep and SPH_DIM (SPH_DIM + 1)/2 reals a particle; where neighbours do not
+   span space the plain gradient is taken (gradient.c). */
+enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:
    velocity Verlet; density drifts with the half-step velocity, so a step takes two sweeps (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1,

@@ -426,7 +426,12 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 #define SMOOTH
 #endif
 #define SORT &sph_pass_count, &sph_pass_scatter, CARRY
-#define FORCES ADAMI CORRECTION SMOOTH &sph_pass_force,
+#if SPH_HAS_FLUID_GRADIENT
+#define GRADIENT &sph_pass_gradient,
+#else
+#define GRADIENT
+#endif
+#define FORCES ADAMI CORRECTION GRADIENT SMOOTH &sph_pass_force,
 
 typedef const sph_pass *const program[];
 static program prime_program = {&pass_begin_copy, SORT FILTER FORCES &pass_prime, NULL};

@@ -90,8 +90,8 @@ SPH_INLINE sph_real sph_cofactor(const sph_real (*m)[SPH_DIM], int k, int l)
 }
 
 /* Inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same norm (not the
-   trace: where a body has turned since its reference position, M has turned on one side). */
-SPH_INLINE_BIG bool sph_invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM])
+   trace: where a body has turned since its reference position, M has turned on one side), or not above `least`. */
+SPH_INLINE_BIG bool sph_invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM], sph_real least)
 {
     sph_real mean = 0, co[SPH_DIM][SPH_DIM];
     for (int k = 0; k < SPH_NL; k++) {
@@ -105,7 +105,7 @@ SPH_INLINE_BIG bool sph_invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH
     sph_real det = m[0][0] * co[0][0];
     for (int k = 1; k < SPH_DIM; k++)
         det += m[0][k] * co[0][k];
-    if (!(det > (sph_real)1e-3 * power))
+    if (!(det > (sph_real)1e-3 * power && det > least))
         return false;
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = 0; l < SPH_DIM; l++)

@@ -27,14 +27,19 @@ enum {
 #define SUM_MASK(name) SPH_SUM_MASK(SUM_##name, SUM_##name##_LAST + 1 - SUM_##name)
 _Static_assert(SUM_ROWS <= SPH_SUMS, "SPH_SUMS is too small");
 
-/* what the pair formulas depend on */
+/* What the pair formulas depend on: bytes, so that two of them can be compared as a whole. */
 typedef struct sph_choice {
-    uint32_t kernel, scheme, viscosity, diffusion;
-    bool wall;                /* the candidates are ghosts */
-    bool beta, xsph, books;
-    bool solid, total, hat;   /* a stress tensor; reference positions; strain rates from smoothed velocities */
-    uint32_t repulsion;       /* exponent of the artificial stress, 0: none */
+    uint8_t kernel, scheme, viscosity, diffusion, gradient;
+    uint8_t wall;              /* the candidates are ghosts */
+    uint8_t beta, xsph, books;
+    uint8_t solid, total, hat; /* a stress tensor; reference positions; strain rates from smoothed velocities */
+    uint8_t repulsion;         /* exponent of the artificial stress, 0: none */
 } sph_choice;
+/* whether the rate of density is summed without rho_i, by which it is multiplied in the end */
+SPH_INLINE bool sph_rate_by_density(uint32_t scheme, uint32_t gradient)
+{
+    return sph_weak_scheme(scheme) || SPH_IS(gradient, BONET_LOK);
+}
 SPH_INLINE bool sph_needs_inv_rho(uint32_t scheme, uint32_t diffusion) { return sph_weak_scheme(scheme) || sph_diffusive(diffusion); }
 
 /* what a home particle brings to each pair, spread over the lanes once */
@@ -47,11 +52,13 @@ typedef struct sph_near {
     const sph_tile *tile;
     uint32_t j;
     vreal dx[SPH_DIM], kx[SPH_DIM], dv[SPH_DIM]; /* x_ij, K, v_ij */
+    vreal ex[SPH_DIM];                           /* along which `force` pushes */
     vint apart;                                  /* of two bodies: no stress between them */
     vreal r2, q, mg, vr;                         /* |x_ij|^2, |K|/h, m_j g, v_ij . x_ij */
+    vreal vc, ve;                                /* v_ij . x_ij as continuity takes it; v_ij . ex */
     vreal rho, press, inv_rho;
     vreal inv;                                   /* 1/((r^2 + eta)(rho_i + rho_j)) */
-    vreal force;                                 /* a_i -= force x_ij */
+    vreal force;                                 /* a_i -= force ex */
     vreal dw[SPH_DIM], fm, visc;                 /* what viscosity sees as v_ij; Morris: a_i += fm dw; Pi m_j g */
     vreal diff;                                  /* density diffusion */
 } sph_near;

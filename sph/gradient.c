@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* gradient.c: corrected gradients of fluids (gradient.h): the sum M, its inverse, and what a particle brings to a tile.
+
+   Array: N (Bonet & Lok) or B (renormalised), symmetric, SPH_DIM (SPH_DIM + 1)/2 reals. Cost: a sweep before the forces.
+   Where the neighbours do not span space the plain gradient is taken: where E = M/rho is nearly singular, or smaller than six
+   tenths of what a particle in the corner of a block has, 2^-SPH_DIM on every axis (lone particles, pairs, drops). */
+#include "gradient.h"
+
+#if SPH_HAS_FLUID_GRADIENT
+void sph_load_gradient(const sph_candidates *r, sph_real *to, uint32_t row)
+{
+    const sph_config *c = &r->sim->cfg;
+    const bool weak = sph_weak_scheme(c->scheme), bonet = SPH_IS(c->gradient, BONET_LOK);
+    for (uint32_t j = 0; j < r->n; j += SPH_W) {
+        vreal w = v_load(r->tile->press + r->at + j); /* p, or p/rho^2 */
+        if (!weak)
+            w = w * v_load(r->tile->rho + r->at + j);
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            SPH_UNROLL
+            for (uint32_t l = k; l < SPH_DIM; l++) {
+                const uint32_t n = sph_sym[k][l];
+                const vreal own = v_load(r->sim->gradient[n] + r->first + j);
+                v_store(to + n * row + j, sph_seen_tensor(r, k, l, bonet ? own * w : own));
+            }
+    }
+}
+
+/* the tile's part of -M; own: whether in the weak scheme */
+SPH_INLINE void gradient_pair(const void *what, uint32_t j, vreal *s)
+{
+    const sph_gather *g = what;
+    vreal dx[SPH_DIM];
+    sph_gather_distance(g, j, dx);
+    vreal mg = sph_gather_slope(g, dx) * v_load(g->tile->m + j);
+    if (*(const bool *)g->own)
+        mg = mg * v_load(g->tile->inv_rho + j);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        SPH_UNROLL
+        for (int l = k; l < SPH_DIM; l++)
+            s[sph_sym[k][l]] = s[sph_sym[k][l]] + mg * dx[k] * dx[l];
+}
+static void gradient_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    static const bool standard = false;
+    const bool weak = sph_weak_scheme(sim->cfg.scheme);
+    const sph_tile *const tile = sph_tile_of(t, role);
+    if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && !weak)
+        sph_gather_by(SPH_WENDLAND_C2, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &standard);
+    else
+        sph_gather_by(sim->cfg.kernel, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &weak);
+}
+
+/* the least determinant of E that is inverted */
+static sph_real least_of(void)
+{
+    const sph_real edge = (sph_real)0.6 / (1 << SPH_DIM);
+    return SPH_DIM == 1 ? edge : SPH_DIM == 2 ? edge * edge : edge * edge * edge;
+}
+
+static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const bool weak = sph_weak_scheme(sim->cfg.scheme), bonet = SPH_IS(sim->cfg.gradient, BONET_LOK);
+    const sph_real inv_rho = 1 / t->home.rho[h], scale = weak ? 1 : inv_rho, back = bonet ? scale : 1;
+    sph_real e[SPH_DIM][SPH_DIM], inv[SPH_DIM][SPH_DIM];
+    for (int k = 0; k < SPH_NL; k++)
+        e[k / SPH_DIM][k % SPH_DIM] = -v_fold(t->sum[sph_sym[k / SPH_DIM][k % SPH_DIM]][h]) * sim->fac.slope * scale;
+    const bool fine = sph_invert((const sph_real(*)[SPH_DIM])e, inv, least_of());
+    for (int k = 0; k < SPH_DIM; k++)
+        for (int l = k; l < SPH_DIM; l++)
+            sim->gradient[sph_sym[k][l]][t->home_at[h]] = (fine ? inv[k][l] : k == l ? 1 : 0) * back;
+}
+
+static void gradient_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_sweep w = {sph_body_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(0, SPH_NT),
+                         sph_weak_scheme(sim->cfg.scheme), 0, gradient_tile, gradient_finish};
+    sph_sweep_chunk(sim, &w, chunk, t);
+}
+static bool corrects_fluids(const sph_sim *sim) { return sph_corrects_fluids(&sim->cfg); }
+const sph_pass sph_pass_gradient = {"gradient", sph_sweep_chunks, gradient_chunk, NULL, corrects_fluids};
+#endif
