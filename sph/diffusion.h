@@ -10,7 +10,7 @@
 SPH_INLINE void sph_diffusion(const sph_choice *c, const sph_factors *f, const sph_home *h, sph_near *p, vreal *s)
 {
     p->diff = v_set(0);
-    if (!sph_diffusive(c->diffusion) || c->wall)
+    if (!sph_diffusive(c->diffusion) || p->wall)
         return;
     vreal dr = h->rho - p->rho;
     if (SPH_IS(c->diffusion, HYDROSTATIC)) {

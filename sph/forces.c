@@ -47,7 +47,7 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
         p->kx[k] = p->ex[k] = p->dx[k] = o->home->x[k] - v_load(o->tile->x[k] + p->j);
     p->r2 = sph_dot(p->dx, p->dx);
     vreal k2 = p->r2;
-    if (SPH_HAS_TOTAL && o->c->solid && o->c->total && !o->c->wall) {
+    if (SPH_HAS_TOTAL && o->c->solid && o->c->total && !p->wall) {
         vint same;
         vreal to[SPH_DIM];
         sph_reference_distance(o->was, o->reference, p->j, p->dx, to, &same, &p->apart);
@@ -87,12 +87,12 @@ SPH_INLINE void momentum(const sph_choice *c, const sph_near *p, vreal *s)
     }
 }
 
-/* one group of lanes: everything that candidates j ... give to the home */
-SPH_INLINE void pair(const void *what, uint32_t j, vreal *s)
+/* one group of lanes: everything that candidates j ... give to the home; wall: they are ghosts */
+SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
 {
-    const at_home *const o = what;
     const sph_choice *const c = o->c;
     sph_near p;
+    p.wall = wall;
     p.tile = o->tile;
     p.j = j;
     p.force = v_set(0);
@@ -114,19 +114,23 @@ SPH_INLINE void pair(const void *what, uint32_t j, vreal *s)
     sph_pair_power(c, &p, s);
 }
 
+SPH_INLINE void pair_bodies(const void *what, uint32_t j, vreal *s) { pair(what, false, j, s); }
+SPH_INLINE void pair_ghosts(const void *what, uint32_t j, vreal *s) { pair(what, true, j, s); }
+SPH_INLINE void pair_either(const void *what, uint32_t j, vreal *s) { pair(what, ((const at_home *)what)->c->wall, j, s); }
+
 /* the sums that these choices take */
-SPH_INLINE uint32_t sums_of(const sph_choice *c)
+SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
 {
     return SUM_MASK(DRHO) | SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_SOLID && c->solid ? SUM_MASK(GRADIENT) : 0) |
            (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
-           (SPH_WITH_BOOKS && c->books ? SUM_MASK(VISCOUS) | SUM_MASK(DIFFUSED) | (c->wall ? SUM_MASK(WALL) : 0) : 0);
+           (SPH_WITH_BOOKS && c->books ? SUM_MASK(VISCOUS) | SUM_MASK(DIFFUSED) | (wall ? SUM_MASK(WALL) : 0) : 0);
 }
 
-SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h, bool wall)
 {
     const sph_home home = sph_spread_home(&t->home, h);
-    at_home o = {.c = c, .f = f, .tile = c->wall ? &t->ghosts : &t->bodies, .home = &home};
-    if (SPH_HAS_LAYERED_WALLS && c->wall)
+    at_home o = {.c = c, .f = f, .tile = wall ? &t->ghosts : &t->bodies, .home = &home};
+    if (SPH_HAS_LAYERED_WALLS && wall)
         o.mirror = sph_mirror_of(sim, t);
     sph_gradient_home gradient;
     if (SPH_HAS_FLUID_GRADIENT && c->gradient) {
@@ -147,38 +151,40 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         was = sph_spread_reference(sph_reference_homes_of(sim, t), h);
         o.was = &was;
     }
-    sph_sum_home(t, h, o.tile->n, sums_of(c), pair, &o);
+    const uint32_t sums = sums_of(c, wall);
+    if (SPH_SMALL)
+        sph_sum_home(t, h, o.tile->n, sums, pair_either, &o);
+    else if (wall)
+        sph_sum_home(t, h, o.tile->n, sums, pair_ghosts, &o);
+    else
+        sph_sum_home(t, h, o.tile->n, sums, pair_bodies, &o);
 }
 
 /* ---- general forms: every choice read at run time ---- */
 
 /* in small builds one text for bodies and ghosts, else one each */
-SPH_INLINE void force_general(sph_choice c, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_INLINE void force_general(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
-    const bool wall = SPH_HAS_LAYERED_WALLS && c.wall;
-    c.wall = wall;
-    if (SPH_SMALL) {
-        force_home(&c, &sim->fac, sim, t, h);
-    } else if (wall) {
-        c.wall = true;
-        force_home(&c, &sim->fac, sim, t, h);
-    } else {
-        c.wall = false;
-        force_home(&c, &sim->fac, sim, t, h);
-    }
+    const bool wall = SPH_HAS_LAYERED_WALLS && c->wall;
+    if (SPH_SMALL)
+        force_home(c, &sim->fac, sim, t, h, wall);
+    else if (wall)
+        force_home(c, &sim->fac, sim, t, h, true);
+    else
+        force_home(c, &sim->fac, sim, t, h, false);
 }
 /* the form that covers fluids; corrected gradients; scenes with solids */
 static __attribute__((noinline)) void force_fluid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = own.total = own.hat = own.repulsion = own.gradient = 0;
-    force_general(own, sim, t, h);
+    force_general(&own, sim, t, h);
 }
 static __attribute__((noinline, unused)) void force_corrected(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = own.total = own.hat = own.repulsion = 0;
-    force_general(own, sim, t, h);
+    force_general(&own, sim, t, h);
 }
 static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
@@ -188,7 +194,7 @@ static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, c
     own.total = SPH_HAS_TOTAL && own.total;
     own.hat = SPH_HAS_HAT && own.hat;
     own.repulsion = SPH_HAS_REPULSION ? own.repulsion : 0;
-    force_general(own, sim, t, h);
+    force_general(&own, sim, t, h);
 }
 
 /* ---- fast paths: the same text with the choices as constants; a line adds a path ---- */
@@ -223,7 +229,7 @@ static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, c
         const sph_factors own = sim->fac;                                                                          \
         for (uint32_t h = 0; h < homes; h++)                                                                       \
             if (!c.wall || sph_is_body(&sim->set[t->home_set[h]]))                                                 \
-                force_home(&c, &own, sim, t, h);                                                                   \
+                force_home(&c, &own, sim, t, h, c.wall);                                                                \
     }
 #define SPH_FAST_ROW(name, ...) {{__VA_ARGS__}, force_##name},
 typedef void fast_path(const sph_sim *sim, sph_thread *t, uint32_t homes);
@@ -428,7 +434,7 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_choice c = choice_of(sim, true);
     const sph_sweep w = {is_force_home,
                          SPH_BODIES | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL,
-                         sums_of(&c) | (c.books || sim->has_force_wall ? SUM_MASK(BOUNDARY) : 0),
+                         sums_of(&c, true) | (c.books || sim->has_force_wall ? SUM_MASK(BOUNDARY) : 0),
                          sph_needs_inv_rho(c.scheme, c.diffusion),
                          (SPH_HAS_LAYERED_WALLS && sph_viscous(c.viscosity) ? 1u << SPH_COLUMN_mirror : 0) |
                              (c.solid ? 1u << SPH_COLUMN_stress : 0) | (c.total ? 1u << SPH_COLUMN_reference : 0) |

@@ -55,7 +55,7 @@ SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_h
         return;
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_NT; k++)
-        b[k] = c->wall ? h->n[k] : (h->n[k] + v_load(row + k * SPH_TILE_ROOM + p->j)) * (sph_real)0.5;
+        b[k] = p->wall ? h->n[k] : (h->n[k] + v_load(row + k * SPH_TILE_ROOM + p->j)) * (sph_real)0.5;
     sph_symmetric_times(b, p->dx, p->ex);
     p->vc = p->ve = sph_dot(p->dv, p->ex);
 }
@@ -70,12 +70,12 @@ SPH_INLINE void sph_corrected_pressure(const sph_choice *c, const sph_home *o, c
     vreal sum[SPH_NT], a[SPH_DIM];
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_NT; k++)
-        sum[k] = h->t[k] + (c->wall ? k < SPH_DIM ? p->press : v_set(0) : v_load(row + k * SPH_TILE_ROOM + p->j));
+        sum[k] = h->t[k] + (p->wall ? k < SPH_DIM ? p->press : v_set(0) : v_load(row + k * SPH_TILE_ROOM + p->j));
     sph_symmetric_times(sum, p->dx, a);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
         s[SUM_ACC + k] = s[SUM_ACC + k] + a[k] * w;
-        if (SPH_WITH_BOOKS && c->books && c->wall)
+        if (SPH_WITH_BOOKS && c->books && p->wall)
             s[SUM_WALL] = s[SUM_WALL] + a[k] * w * v_load(p->tile->v[k] + p->j);
     }
 }

@@ -12,9 +12,9 @@ SPH_INLINE void sph_pair_power(const sph_choice *c, const sph_near *p, vreal *s)
     if (!SPH_WITH_BOOKS || !c->books)
         return;
     const vreal viscous = SPH_IS(c->viscosity, MORRIS) ? -(p->fm * sph_dot(p->dw, p->dv)) : -(p->visc * p->ve);
-    s[SUM_VISCOUS] = s[SUM_VISCOUS] + (c->wall ? viscous : viscous * (sph_real)0.5);
+    s[SUM_VISCOUS] = s[SUM_VISCOUS] + (p->wall ? viscous : viscous * (sph_real)0.5);
     s[SUM_DIFFUSED] = s[SUM_DIFFUSED] + p->diff;
-    if (!c->wall)
+    if (!p->wall)
         return;
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)

@@ -71,11 +71,11 @@ SPH_INLINE vreal sph_stress_sum(const sph_choice *c, const sph_stress_home *h, c
                                 int l, vreal fn)
 {
     vreal sum = h->t[k * SPH_DIM + l];
-    if (!c->wall)
+    if (!p->wall)
         sum = sum + v_load(t->t[k * SPH_DIM + l] + p->j);
     else if (k == l)
         sum = sum + p->press;
-    if (c->repulsion && !c->wall)
+    if (c->repulsion && !p->wall)
         sum = sum + (h->r[sph_sym[k][l]] + v_load(t->r[sph_sym[k][l]] + p->j)) * fn;
     return sum;
 }
@@ -88,7 +88,7 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
     const bool weak = sph_weak_scheme(c->scheme);
     const vreal wl = weak ? p->mg * p->inv_rho : p->mg, w = weak ? wl * o->inv_rho : p->mg;
     vreal fn = v_set(0);
-    if (c->repulsion && !c->wall)
+    if (c->repulsion && !p->wall)
         fn = sph_small_power(k_value(c->kernel, p->q) * f->inv_wdx, c->repulsion);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
@@ -101,7 +101,7 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
         s[SUM_ACC + k] = s[SUM_ACC + k] + a * w;
         vreal d = p->dv[k];
         if (c->hat)
-            d = h->u[k] - (c->wall ? v_load(p->tile->v[k] + p->j) : v_load(u + (uint32_t)k * SPH_TILE_ROOM + p->j));
+            d = h->u[k] - (p->wall ? v_load(p->tile->v[k] + p->j) : v_load(u + (uint32_t)k * SPH_TILE_ROOM + p->j));
         d = d * wl;
         SPH_UNROLL
         for (int l = 0; l < SPH_DIM; l++)

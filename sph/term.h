@@ -30,7 +30,7 @@ _Static_assert(SUM_ROWS <= SPH_SUMS, "SPH_SUMS is too small");
 /* What the pair formulas depend on: bytes, so that two of them can be compared as a whole. */
 typedef struct sph_choice {
     uint8_t kernel, scheme, viscosity, diffusion, gradient;
-    uint8_t wall;              /* the candidates are ghosts */
+    uint8_t wall;              /* of ghosts (terms read it of the pair) */
     uint8_t beta, xsph, books;
     uint8_t solid, total, hat; /* a stress tensor; reference positions; strain rates from smoothed velocities */
     uint8_t repulsion;         /* exponent of the artificial stress, 0: none */
@@ -51,6 +51,7 @@ typedef struct sph_home {
 typedef struct sph_near {
     const sph_tile *tile;
     uint32_t j;
+    bool wall;                                   /* the candidates are ghosts */
     vreal dx[SPH_DIM], kx[SPH_DIM], dv[SPH_DIM]; /* x_ij, K, v_ij */
     vreal ex[SPH_DIM];                           /* along which `force` pushes */
     vint apart;                                  /* of two bodies: no stress between them */

@@ -42,7 +42,7 @@ SPH_INLINE void sph_viscosity(const sph_choice *c, const sph_factors *f, const s
     if (!sph_viscous(c->viscosity))
         return;
     vreal vv = p->vr;
-    if (c->wall) {
+    if (p->wall) {
         sph_mirror_velocity(h, m, p);
         vv = sph_dot(p->dw, p->dx);
     }

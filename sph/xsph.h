@@ -8,7 +8,7 @@
 
 SPH_INLINE void sph_xsph(const sph_choice *c, const sph_home *h, const sph_near *p, vreal *s)
 {
-    if (!SPH_WITH_XSPH || !c->xsph || c->wall)
+    if (!SPH_WITH_XSPH || !c->xsph || p->wall)
         return;
     const vreal w = k_value(c->kernel, p->q) * v_load(p->tile->m + p->j) / (h->rho + p->rho);
     SPH_UNROLL
