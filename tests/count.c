@@ -19,7 +19,7 @@ static tank scene_tank(const char *name, uint32_t n, bool books)
     check(NULL, s && s->params <= 64 ? SPH_OK : SPH_BAD_ARGUMENT, name);
     for (uint32_t i = 0; i < s->params; i++)
         p[i] = strcmp(s->param[i].name, "n") == 0 ? n : s->param[i].value;
-    p[SCENE_BOOKS] = books;
+    p[SCENE_OF_books] = books;
     s->configure(p, &c);
     t.bytes = sph_arena_bytes(&c);
     t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
