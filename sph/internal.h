@@ -4,12 +4,15 @@
    layout.c   configuration checks, the one layout function, init, usage
    setup.c    sets, particles, boxes, initial fields, equations of state; layers.c walls as rows or layers of particles
    shapes.c   rings, polygons, shapes with holes, on square and face-centred lattices
-   sort.c     moves particles and orders them by (cell, id): the start of every stage
+   fields.c   the list of state fields as a table; threads.c what threads see in a pass: failures, peaks, work
+   sort.c     orders particles by (cell, id): the start of every stage; move.c where they go, faces.c the domain's faces
+   carry.c    the other fields' way through a step; settle.c its end
    sweep.c    the one neighbour sweep: candidates of a cell go into tiles, sums come out
    fluid.c    pair formulas of water: density, momentum, viscosity, diffusion, XSPH, filters
-   solid.c    stress: rates, corrected gradients, yield; solid.h its pair formulas; damage.c flaws and damage
-   walls.c    boundary forces, Adami's extrapolation, crossing, moving walls
-   step.c     integrators as lists of passes, local passes; run.c runs them: time step, slices, threads, failure
+   solid.c    stress: rates, corrected gradients; solid.h its pair formulas; yield.c; damage.c flaws and damage
+   walls.c    boundary forces, Adami's extrapolation; groups.c walls that move; crossing.c particles inside walls
+   kick.h, runge_kutta.h  velocities and densities in each integrator; powers.c work and dissipation
+   integrators.c  lists of passes, local passes; run.c runs them: slices, threads, failure; limits.c the time step
    books.c    totals, probes, gauges; hash.c state hash; dump.c dump and restore
    kernels.c  smoothing kernels; dmath.c deterministic functions; lanes.h vectors
 
@@ -26,6 +29,8 @@
 #define SPH_POWERS 4u     /* kept in the books: viscous, wall, diffusion, body force */
 #define SPH_PARTIALS (SPH_POWERS + 1u) /* sums of a chunk for the books: those, and energy given to held sets (J) */
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
+/* a sum of squares above this counts as not finite: a float has room for a factor of 1e8 beyond */
+#define SPH_LIMIT_SQUARE ((sph_real)1e30)
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
 
 /* one particle set: constants that its particles share */
@@ -111,8 +116,15 @@ typedef struct sph_grid {
 struct sph_thread; /* per-thread scratch: sweep.h */
 
 typedef struct sph_pass sph_pass;
-/* the stage a sort belongs to: which positions it moves the particles to, and what else it advances */
-enum { SPH_ADV_COPY, SPH_ADV_PC, SPH_ADV_KDK, SPH_ADV_LEAP, SPH_ADV_RK };
+/* What a stage of an integrator does to the particles at its sort, as shares of dt (bend: of dt^2):
+   displacement = drift (v + drift velocity) + bend a, v' = v + kick a, what evolves + rate d/dt. */
+typedef struct sph_stage {
+    sph_real drift, bend, kick, rate;
+    bool damps;    /* v' is multiplied by cfg.damping */
+    bool reflects; /* particles that a mirror face turned are counted: not where the whole step will count them */
+    bool middle;   /* its sums are of positions at the step's end and velocities of its middle */
+} sph_stage;
+struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
 #define SPH_MAX_PROGRAM 48u
@@ -126,7 +138,9 @@ struct sph_sim {
     /* arrays */
     sph_buffer buf[3];
     uint32_t buffers, cur, src, dst; /* current state; source and target of the stage under way */
-    uint32_t src_count, mode;        /* particles in src; SPH_ADV_... of the stage */
+    uint32_t src_count;              /* particles in src */
+    const sph_stage *stage;          /* the one under way */
+    const struct sph_integrator *integrator; /* whose list of passes runs */
     bool src_table;                  /* cell[] belongs to src, so its slabs are known */
     uint32_t *cell;                  /* cells + 1 starts */
     uint32_t *slab;                  /* starts of the slabs in the source buffer */
@@ -159,6 +173,7 @@ struct sph_sim {
     uint32_t limit;
     double limit_dt[SPH_LIMITS];
     uint64_t work, pairs, budget;
+    sph_peaks peaks; /* of the latest pass */
     uint32_t ranges, range_count[SPH_MAX_RANGES];
     sph_report report;
     /* marks */
@@ -246,8 +261,6 @@ SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID
 /* ---- shared by files ---- */
 #define sph_sim_magic 0x5350485f53494d31u
 
-#define sph_fail_note SPH_NAME(fail_note_)
-void sph_fail_note(struct sph_thread *t, sph_status s, uint32_t id, double value);
 #define sph_error SPH_NAME(error_)
 sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle);
 #define sph_mix SPH_NAME(mix_)
@@ -292,6 +305,11 @@ SPH_INLINE uint32_t sph_run_end(const uint8_t *set, uint32_t s, uint32_t e)
     }
     return e;
 }
+
+/* Until a stage settles, array id of buffer dst holds each particle's index in src. */
+SPH_INLINE const uint32_t *sph_source_index(const sph_sim *sim) { return sim->buf[sim->dst].id[0]; }
+/* the id of particle i of dst, until the stage settles */
+SPH_INLINE uint32_t sph_source_id(const sph_sim *sim, uint32_t i) { return sim->buf[sim->src].id[0][sph_source_index(sim)[i]]; }
 
 /* whether a wall group is gone, and how fast it moves along an axis (m/s), at the end of the step under way */
 SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)

@@ -34,26 +34,11 @@ SPH_INLINE void sph_deviator(const vreal *kept, vreal *s)
 #endif
 }
 
-#define sph_stage_rate SPH_NAME(stage_rate_)
-sph_real sph_stage_rate(const sph_sim *sim); /* sort.c: share of dt by which the stage's sort advances rates */
-
-/* solid.c: the stress of particles first .. last of the destination buffer */
-enum { SPH_STRESS_CARRY, SPH_STRESS_CORRECT, SPH_STRESS_WHOLE, SPH_STRESS_RK };
-#define sph_advance_stress SPH_NAME(advance_stress_)
-void sph_advance_stress(sph_sim *sim, uint32_t first, uint32_t last, uint32_t how);
 /* dS/dt and -tr L of a home from its sums; raw: sum m_j v_ij (x) K g without the kernel's scale */
 #define sph_stress_rates SPH_NAME(stress_rates_)
 sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho);
-/* damage.c: grows the damage of particles first .. last over dt */
-#define sph_grow_damage SPH_NAME(grow_damage_)
-void sph_grow_damage(sph_sim *sim, uint32_t first, uint32_t last);
 /* the stress after damage (xx, yy, zz, xy, xz, yz; Pa) and D, in double, of a particle of a buffer */
 #define sph_stress_of SPH_NAME(stress_of_)
 double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress);
-
-#define sph_pass_carry SPH_NAME(pass_carry_)
-#define sph_pass_correction SPH_NAME(pass_correction_)
-#define sph_pass_smooth SPH_NAME(pass_smooth_)
-extern const sph_pass sph_pass_carry, sph_pass_correction, sph_pass_smooth;
 
 #endif

@@ -114,6 +114,25 @@ uint32_t sph_sweep_chunks(const sph_sim *sim);
 #define sph_local_chunks SPH_NAME(local_chunks_)
 uint32_t sph_local_chunks(const sph_sim *sim);
 
+/* the particles of a chunk of a local pass */
+typedef struct sph_span {
+    uint32_t first, last;
+} sph_span;
+SPH_INLINE sph_span sph_chunk_span(const sph_sim *sim, uint32_t chunk)
+{
+    const uint32_t first = chunk * SPH_LOCAL_CHUNK, last = first + SPH_LOCAL_CHUNK;
+    return (sph_span){first, last < sim->next.count ? last : sim->next.count};
+}
+
+/* threads.c: a failure seen by a thread; the smallest particle id wins, so it does not depend on threads */
+#define sph_fail_note SPH_NAME(fail_note_)
+void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value);
+/* starts what threads see afresh; adds up what they saw in a pass, and returns the failure, if there was one */
+#define sph_clear_threads SPH_NAME(clear_threads_)
+void sph_clear_threads(sph_sim *sim);
+#define sph_gather_threads SPH_NAME(gather_threads_)
+sph_fail sph_gather_threads(sph_sim *sim);
+
 _Static_assert(sizeof(sph_thread) <= SPH_SCRATCH_BYTES, "SPH_SCRATCH_BYTES in sph.h is too small");
 _Static_assert(sizeof(sph_solid_scratch) <= SPH_SOLID_SCRATCH_BYTES, "SPH_SOLID_SCRATCH_BYTES in sph.h is too small");
 
