@@ -179,8 +179,9 @@ static const sph_stage half_way = {0.5, 0, 0.5, 0.5, false, false, false};   /* 
 /* ---- the table ---- */
 
 /* left out: an empty list */
-#define ROW(knob, passes, first, begins, second) \
-    {(knob) ? (passes) : NULL, (knob) ? sizeof(passes) / sizeof *(passes) : 0, &(first), &(begins), &(second)}
+#define ROW(knob, passes, first, begins, second)                                                                   \
+    {MODULE(knob, (passes)[0]), (knob) ? sizeof(passes) / sizeof *(passes) : 0, MODULE(knob, first), MODULE(knob, begins), \
+     MODULE(knob, second)}
 static const sph_integrator integrators[SPH_NO_INTEGRATOR + 1] = {
     [SPH_PREDICTOR_CORRECTOR] = ROW(SPH_WITH_PREDICTOR_CORRECTOR, predictor_corrector, predicts, predicts, stays),
     [SPH_KICK_DRIFT_KICK] = ROW(SPH_WITH_KICK_DRIFT_KICK, kick_drift_kick, kicks_and_drifts, kicks_and_drifts, stays),

@@ -6,34 +6,36 @@
 
 #include "motion.h"
 
-/* v = damping (v + step a) of a run of one set, along the axes on which it is free; a less what it was in src where old is given */
-SPH_INLINE void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step, const sph_buffer *old)
+/* v = damping (v + step a) of a run of one set, along the axes on which it is free; a less what it was in src if `less_old` */
+SPH_INLINE void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step, bool less_old)
 {
-    const sph_buffer b = sim->buf[sim->dst];
-    const uint32_t held = sph_held(sim, set), *at = b.id[0];
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const uint32_t held = sph_held(sim, set), *at = b->id[0];
     const sph_real g = (sph_real)sim->cfg.damping;
     SPH_UNROLL
-    for (uint32_t k = 0; k < SPH_DIM; k++)
-        for (uint32_t i = first; i < last && !(held >> k & 1); i++) {
-            const sph_real a = old ? b.acc[k][i] - old->acc[k][at[i]] : b.acc[k][i];
-            b.vel[k][i] = g * (b.vel[k][i] + step * a);
-        }
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        sph_real *v = b->vel[k];
+        const sph_real *a = b->acc[k], *old = o->acc[k];
+        for (uint32_t i = first; i < last && !(held >> k & 1); i++)
+            v[i] = g * (v[i] + step * (less_old ? a[i] - old[at[i]] : a[i]));
+    }
 }
 
 /* predictor-corrector: v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28, 2.29) */
 SPH_INLINE void sph_correct(const sph_sim *sim, sph_span s)
 {
-    const sph_buffer b = sim->buf[sim->dst], o = sim->buf[sim->src];
-    const sph_real half = (sph_real)sim->dt * (sph_real)0.5;
-    const uint32_t *at = b.id[0];
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const sph_real half = (sph_real)sim->dt * (sph_real)0.5, *rate = b->drho[0], *old = o->drho[0];
+    const uint32_t *at = b->id[0];
+    sph_real *rho = b->rho[0];
     for (uint32_t i = s.first, e; i < s.last; i = e) {
-        e = sph_run_end(b.set[0], i, s.last);
-        const sph_set *set = &sim->set[b.set[0][i]];
+        e = sph_run_end(b->set[0], i, s.last);
+        const sph_set *set = &sim->set[b->set[0][i]];
         const bool body = sph_is_body(set);
         for (uint32_t j = i; j < e && (body || set->compressible); j++)
-            b.rho[0][j] = b.rho[0][j] + half * (b.drho[0][j] - o.drho[0][at[j]]);
+            rho[j] = rho[j] + half * (rate[j] - old[at[j]]);
         if (body)
-            sph_kick_run(sim, set, i, e, half, &o);
+            sph_kick_run(sim, set, i, e, half, true);
     }
 }
 
@@ -44,7 +46,7 @@ SPH_INLINE void sph_kick(const sph_sim *sim, sph_span s, sph_real step)
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(sets, i, s.last);
         if (sph_is_body(&sim->set[sets[i]]))
-            sph_kick_run(sim, &sim->set[sets[i]], i, e, step, NULL);
+            sph_kick_run(sim, &sim->set[sets[i]], i, e, step, false);
     }
 }
 

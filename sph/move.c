@@ -11,7 +11,7 @@ sph_move sph_stage_move(const sph_sim *sim)
 }
 
 /* displaces particles that forces move, i..i+n of src; returns false if one moves too far, not finitely, or out of the domain */
-static bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, sph_block *o, uint32_t at, bool all)
+SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, sph_block *o, uint32_t at, bool all)
 {
     const sph_buffer *b = &sim->buf[sim->src];
     const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), half = v_set((sph_real)0.5);
@@ -124,8 +124,8 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
     }
 }
 
-bool sph_move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, bool all, uint32_t own_from, uint32_t own_to,
-                    sph_thread *t)
+SPH_INLINE_BIG bool move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, bool all, uint32_t own_from,
+                               uint32_t own_to, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->src];
     sph_block *o = &t->block;
@@ -148,4 +148,12 @@ bool sph_move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t 
         if (!o->gone[j])
             mend_particle(sim, a, i + j, j, o, all, i + j >= own_from && i + j < own_to, t);
     return fine;
+}
+
+bool sph_move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, bool all, uint32_t own_from, uint32_t own_to,
+                    sph_thread *t)
+{
+    if (SPH_SMALL)
+        return move_block(sim, a, i, n, all, own_from, own_to, t);
+    return all ? move_block(sim, a, i, n, true, own_from, own_to, t) : move_block(sim, a, i, n, false, own_from, own_to, t);
 }

@@ -2,11 +2,29 @@
 /* settle.c: the end of a stage: indices become ids, walls get zeros; and of a step: what must not go on is noted. */
 #include "motion.h"
 
+/* components of all fields that the force sweep writes */
+enum {
+#define SPH_SUMMED_COMPS(name, type, comps, unit, when, way) +(((way) & SPH_WAYS) == SPH_SUMMED ? (comps) : 0)
+    SUMMED = 0 SPH_STATE_FIELDS(SPH_SUMMED_COMPS)
+#undef SPH_SUMMED_COMPS
+};
+
+/* those that the scene has; returns how many */
+static uint32_t find_summed(const sph_buffer *b, sph_real **array)
+{
+    uint32_t n = 0;
+    for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++)
+        for (uint32_t k = 0; k < f->comps && f->way == SPH_SUMMED && sph_array(b, f->at); k++)
+            array[n++] = sph_array(b, f->at + k);
+    return n;
+}
+
 void sph_settle(const sph_sim *sim, sph_span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    uint32_t *id = b->id[0];
+    uint32_t *id = b->id[0], n = 0;
     const uint32_t *of = sim->buf[sim->src].id[0];
+    sph_real *summed[SUMMED];
     for (uint32_t i = s.first; i < s.last; i++)
         id[i] = of[id[i]];
     for (uint32_t i = s.first, e; i < s.last; i = e) {
@@ -14,11 +32,10 @@ void sph_settle(const sph_sim *sim, sph_span s)
         const uint8_t set = b->set[0][i];
         if (set == SPH_DEAD || sph_is_body(&sim->set[set]))
             continue;
-        for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++) {
-            const bool kept = f->at == SPH_FIELD_AT(drho) && sim->set[set].compressible;
-            for (uint32_t k = 0; k < f->comps && f->way == SPH_SUMMED && !kept && sph_array(b, f->at); k++)
-                memset((sph_real *)sph_array(b, f->at + k) + i, 0, (e - i) * sizeof(sph_real));
-        }
+        n = n ? n : find_summed(b, summed);
+        for (uint32_t k = 0; k < n; k++) /* walls that are compressible have a rate of density */
+            if (!sim->set[set].compressible || summed[k] != b->drho[0])
+                memset(summed[k] + i, 0, (e - i) * sizeof(sph_real));
     }
 }
 
