@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* carry.c: every field beside positions, velocities and densities goes with its particle (pass "carry", after the sort) and, where
-   the list of fields says that it evolves, is advanced with its rate by whatever integrator runs. Scenes without such fields
-   have none of it.
+/* carry.c: every field beside positions, velocities and densities goes with its particle (pass "carry", after the
+   sort) and, where the list of fields says that it evolves, is advanced with its rate by whatever integrator runs.
+   Scenes without such fields have none of it.
 
    Cost: for each component a loop that gathers from buffer src, and one or two that add the rate. */
 #include "motion.h"
@@ -67,7 +67,10 @@ static evolving evolving_from(const sph_sim *sim, uint32_t field, uint32_t comp)
     return (evolving){0, 0, NULL, NULL, NULL, NULL};
 }
 static evolving first_evolving(const sph_sim *sim) { return evolving_from(sim, 0, 0); }
-static evolving next_evolving(const sph_sim *sim, const evolving *e) { return evolving_from(sim, e->field, e->comp + 1); }
+static evolving next_evolving(const sph_sim *sim, const evolving *e)
+{
+    return evolving_from(sim, e->field, e->comp + 1);
+}
 
 void sph_carry_fields(sph_sim *sim, sph_span s)
 {

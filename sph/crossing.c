@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* crossing.c: particles that are found inside a wall, behind the face of a set. What becomes of them is the host's choice: the step
-   fails, or they are removed, put back, or left alone. Adds no array; cost: for each set of walls a comparison of integers a particle. */
+/* crossing.c: particles that are found inside a wall, behind the face of a set. What becomes of them is the host's
+   choice: the step fails, or they are removed, put back, or left alone. Adds no array; cost: for each set of walls a
+   comparison of integers a particle. */
 #include "locals.h"
 #include "motion.h"
 
@@ -30,7 +31,10 @@ static double depth_inside(const sph_set *s, const double *x)
 }
 
 /* whether particles are looked for behind a set's faces */
-static bool is_region(const sph_sim *sim, const sph_set *s) { return !sph_is_body(s) && !s->corner && !sph_wall_removed(sim, s); }
+static bool is_region(const sph_sim *sim, const sph_set *s)
+{
+    return !sph_is_body(s) && !s->corner && !sph_wall_removed(sim, s);
+}
 
 /* the wall a particle is least deep inside of, or SPH_MAX_SETS */
 static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *depth)
@@ -52,7 +56,7 @@ static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i,
     return found;
 }
 
-/* a place of axis k from which a move of one cell still fits into an integer: at most about a domain's length outside */
+/* a place of axis k from which a move of one cell still fits into an integer: at most a domain's length outside */
 static __attribute__((noinline)) sph_pos near_quanta(const sph_sim *sim, uint32_t k, int64_t q)
 {
     const sph_pos low = -sim->grid.extent[k], high = 2 * sim->grid.extent[k] - sim->grid.cell_size[k] - 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* faces.c: the rules of the domain's faces for one particle. Periodic: it comes in on the other side; mirrors: it is reflected,
-   and its velocity turns; open: it has left. */
+/* faces.c: the rules of the domain's faces for one particle. Periodic: it comes in on the other side; mirrors: it is
+   reflected, and its velocity turns; open: it has left. */
 #include "motion.h"
 
 /* puts a coordinate that left the domain back by the face's rule: 0 fine, 1 reflected, 2 left */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* groups.c: walls that move or vanish, and held sets that move or are let go: where their group is at a time is what its host says. */
+/* groups.c: walls that move or vanish, and held sets that move or are let go: where their group is at a time is what
+   its host says. */
 #include "locals.h"
 
 #if SPH_HAS_GROUPS
@@ -20,8 +21,8 @@ sph_status sph_move_groups(sph_sim *sim, double t)
                                  SPH_NO_PARTICLE);
             double q = x[k] / sim->grid.quantum, leap = sph_abs(q - (double)s->moved[k]) * sim->grid.quantum;
             if (leap >= sim->grid.length[k])
-                return sph_error(sim, SPH_MOVED_TOO_FAR, "motion of a wall", "less than the domain's length in a step", leap,
-                                 SPH_NO_PARTICLE);
+                return sph_error(sim, SPH_MOVED_TOO_FAR, "motion of a wall",
+                                 "less than the domain's length in a step", leap, SPH_NO_PARTICLE);
             s->moved[k] = (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
             s->vel[k] = v[k];
         }

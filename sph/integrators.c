@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* integrators.c: the integrators as lists of passes, and the local passes: what is done to each particle before and after the sums.
-   run.c runs the lists. To add an integrator: its list, its stages, and a row in the table at the end.
+/* integrators.c: the integrators as lists of passes, and the local passes: what is done to each particle before and
+   after the sums. run.c runs the lists. To add an integrator: its list, its stages, and a row in the table at the
+   end.
 
    A step goes from buffer cur into another; nothing that the next step would read changes before run.c commits. */
 #include "integrators.h"
@@ -170,18 +171,18 @@ static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_se
 
 /* what the sorts do: drift, bend, kick, rate; damps, reflects, middle */
 static const sph_stage stays = {0, 0, 0, 0, false, true, false};
-static const sph_stage predicts = {1, 0.5, 1, 1, true, true, false};         /* Gray 2001 eqs 2.26, 2.27, 2.29 */
+static const sph_stage predicts = {1, 0.5, 1, 1, true, true, false};       /* Gray 2001 eqs 2.26, 2.27, 2.29 */
 static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0, true, true, true};
 static const sph_stage leaps = {1, 0, 0, 0, false, true, true};
-static const sph_stage first_leap = {1, 0.5, 0.5, 0, false, true, true};     /* turns v^0 into v^(1/2) */
-static const sph_stage half_way = {0.5, 0, 0.5, 0.5, false, false, false};   /* Wickramarachchi 3.85, and the mean of 3.91 */
+static const sph_stage first_leap = {1, 0.5, 0.5, 0, false, true, true};   /* turns v^0 into v^(1/2) */
+static const sph_stage half_way = {0.5, 0, 0.5, 0.5, false, false, false}; /* Wickramarachchi 3.85, mean of 3.91 */
 
 /* ---- the table ---- */
 
 /* left out: an empty list */
 #define ROW(knob, passes, first, begins, second)                                                                   \
-    {MODULE(knob, (passes)[0]), (knob) ? sizeof(passes) / sizeof *(passes) : 0, MODULE(knob, first), MODULE(knob, begins), \
-     MODULE(knob, second)}
+    {MODULE(knob, (passes)[0]), (knob) ? sizeof(passes) / sizeof *(passes) : 0,                                    \
+     MODULE(knob, first), MODULE(knob, begins), MODULE(knob, second)}
 static const sph_integrator integrators[SPH_NO_INTEGRATOR + 1] = {
     [SPH_PREDICTOR_CORRECTOR] = ROW(SPH_WITH_PREDICTOR_CORRECTOR, predictor_corrector, predicts, predicts, stays),
     [SPH_KICK_DRIFT_KICK] = ROW(SPH_WITH_KICK_DRIFT_KICK, kick_drift_kick, kicks_and_drifts, kicks_and_drifts, stays),

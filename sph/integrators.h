@@ -6,9 +6,11 @@
 #include "internal.h"
 
 typedef struct sph_integrator {
-    const sph_pass *const *passes;             /* null: a pass whose module was left out */
+    const sph_pass *const *passes; /* null: a pass whose module was left out */
     uint32_t count;
-    const sph_stage *first, *begins, *second;  /* of its first sort; in a run's first step; of its second sort, if it has one */
+    const sph_stage *first;        /* of its first sort */
+    const sph_stage *begins;       /* the same in a run's first step */
+    const sph_stage *second;       /* of its second sort, if it has one */
 } sph_integrator;
 
 /* an integrator by its number in sph_config; SPH_NO_INTEGRATOR: the computation of the first forces */

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* kick.h: velocities and densities after the sums, in the integrators that have one sort a step. Bodies are kicked, but along the
-   axes on which they are held; walls have a density of their own only where they are compressible. */
+/* kick.h: velocities and densities after the sums, in the integrators that have one sort a step. Bodies are kicked,
+   but along the axes on which they are held; walls have a density of their own only where they are compressible. */
 #ifndef SPH_KICK_H
 #define SPH_KICK_H
 
 #include "motion.h"
 
-/* v = damping (v + step a) of a run of one set, along the axes on which it is free; a less what it was in src if `less_old` */
-SPH_INLINE void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step, bool less_old)
+/* v = damping (v + step a) of a run of one set, along the axes on which it is free; a less what it was in src if
+   `less_old` */
+SPH_INLINE void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step,
+                             bool less_old)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, set), *at = b->id[0];
@@ -21,7 +23,8 @@ SPH_INLINE void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t fi
     }
 }
 
-/* predictor-corrector: v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28, 2.29) */
+/* predictor-corrector: v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28,
+   2.29) */
 SPH_INLINE void sph_correct(const sph_sim *sim, sph_span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
@@ -50,9 +53,9 @@ SPH_INLINE void sph_kick(const sph_sim *sim, sph_span s, sph_real step)
     }
 }
 
-/* Leap-frog (Powell 2012 algorithm 1.1) and kick-drift-kick: the density goes a whole step with the rates of the half-step
-   velocity at the new positions, like a position; then come the forces. (Taking the rates of the velocity at the ends,
-   with one sweep, makes sound waves grow.) */
+/* Leap-frog (Powell 2012 algorithm 1.1) and kick-drift-kick: the density goes a whole step with the rates of the
+   half-step velocity at the new positions, like a position; then come the forces. (Taking the rates of the velocity
+   at the ends, with one sweep, makes sound waves grow.) */
 SPH_INLINE void sph_density_whole(const sph_sim *sim, sph_span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst];

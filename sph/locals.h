@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* locals.h: what is done to each particle apart from sums over neighbours, by subject. Particles first .. last of buffer dst,
-   which other chunks do not touch. integrators.c says when. */
+/* locals.h: what is done to each particle apart from sums over neighbours, by subject. Particles first .. last of
+   buffer dst, which other chunks do not touch. integrators.c says when. */
 #ifndef SPH_LOCALS_H
 #define SPH_LOCALS_H
 

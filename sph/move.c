@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* move.c: where the sort takes the particles of a block, and the kick that a stage gives before the sums: bodies by their velocity
-   and acceleration, walls and held sets as their group is told; then the faces of the domain. */
+/* move.c: where the sort takes the particles of a block, and the kick that a stage gives before the sums: bodies by
+   their velocity and acceleration, walls and held sets as their group is told; then the faces of the domain. */
 #include "motion.h"
 
 sph_move sph_stage_move(const sph_sim *sim)
 {
     const sph_stage *g = sim->stage;
-    const sph_real dt = (sph_real)sim->dt;
-    return (sph_move){g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, g->damps ? (sph_real)sim->cfg.damping : 1};
+    const sph_real dt = (sph_real)sim->dt, damping = g->damps ? (sph_real)sim->cfg.damping : 1;
+    return (sph_move){g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, damping};
 }
 
-/* displaces particles that forces move, i..i+n of src; returns false if one moves too far, not finitely, or out of the domain */
-SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, sph_block *o, uint32_t at, bool all)
+/* displaces particles that forces move, i..i+n of src; returns false if one moves too far, not finitely, or out of
+   the domain */
+SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, sph_block *o, uint32_t at,
+                            bool all)
 {
     const sph_buffer *b = &sim->buf[sim->src];
     const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), half = v_set((sph_real)0.5);
@@ -54,7 +56,8 @@ static int64_t wall_step(const sph_sim *sim, const sph_set *s, uint32_t k)
 }
 
 /* wall particles go where their group goes; their density changes only by continuity */
-static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, uint32_t i, uint32_t n, sph_block *o, uint32_t at)
+static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, uint32_t i, uint32_t n, sph_block *o,
+                       uint32_t at)
 {
     const bool removed = sph_wall_removed(sim, s);
     bool fine = !removed;
@@ -74,7 +77,8 @@ static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, 
     return fine;
 }
 
-/* along the axes on which a set is held its particles go where the set goes; returns false where one leaves the domain */
+/* along the axes on which a set is held its particles go where the set goes; returns false where one leaves the
+   domain */
 static bool hold_bodies(const sph_sim *sim, const sph_set *s, uint32_t i, uint32_t n, sph_block *o, uint32_t at)
 {
     const sph_buffer *b = &sim->buf[sim->src];
@@ -90,9 +94,10 @@ static bool hold_bodies(const sph_sim *sim, const sph_set *s, uint32_t i, uint32
     return fine;
 }
 
-/* the slow half for one particle that is not gone: whether its way is short enough, and the rules of the domain's faces */
-static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t j, sph_block *o, bool all, bool own,
-                          sph_thread *t)
+/* the slow half for one particle that is not gone: whether its way is short enough, and the rules of the domain's
+   faces */
+static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t j, sph_block *o, bool all,
+                          bool own, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->src];
     const bool body = sph_is_body(&sim->set[b->set[0][i]]);
@@ -124,8 +129,8 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
     }
 }
 
-SPH_INLINE_BIG bool move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, bool all, uint32_t own_from,
-                               uint32_t own_to, sph_thread *t)
+SPH_INLINE_BIG bool move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, bool all,
+                               uint32_t own_from, uint32_t own_to, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->src];
     sph_block *o = &t->block;
@@ -150,10 +155,10 @@ SPH_INLINE_BIG bool move_block(const sph_sim *sim, const sph_move *a, uint32_t i
     return fine;
 }
 
-bool sph_move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, bool all, uint32_t own_from, uint32_t own_to,
-                    sph_thread *t)
+bool sph_move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, bool all, uint32_t own_from,
+                    uint32_t own_to, sph_thread *t)
 {
-    if (SPH_SMALL)
-        return move_block(sim, a, i, n, all, own_from, own_to, t);
-    return all ? move_block(sim, a, i, n, true, own_from, own_to, t) : move_block(sim, a, i, n, false, own_from, own_to, t);
+    if (!SPH_SMALL && !all) /* the same text twice: the count needs no velocities */
+        return move_block(sim, a, i, n, false, own_from, own_to, t);
+    return move_block(sim, a, i, n, SPH_SMALL ? all : true, own_from, own_to, t);
 }

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* powers.c: work and dissipation for the books. The force sweep leaves the powers of each particle (viscosity, walls, diffusion,
-   body force; W/kg) in power[]; here they are summed and integrated over time by the trapezoidal rule.
+/* powers.c: work and dissipation for the books. The force sweep leaves the powers of each particle (viscosity, walls,
+   diffusion, body force; W/kg) in power[]; here they are summed and integrated over time by the trapezoidal rule.
 
-   Arrays: power (4 reals a particle), partial (5 doubles a chunk). Cost: a loop over particles in double at a step's end. */
+   Arrays: power (4 reals a particle), partial (5 doubles a chunk). Cost: a loop over particles in double at a step's
+   end. */
 #include "locals.h"
 
 #if SPH_WITH_BOOKS
-/* what the motion of a held set has added to its kinetic energy in this step, J/kg: exact, so that velocities may jump */
+/* what the motion of a held set has added to its kinetic energy in this step, J/kg: exact, so that velocities may
+   jump */
 static double held_gain(const sph_sim *sim, const sph_set *set)
 {
     const uint32_t held = sph_held(sim, set);

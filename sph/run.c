@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* run.c: slices, threads, and what happens when a step fails.
 
-   A step copies the scalars `now` to `next`, runs the passes of its list (integrators.c) from buffer cur into another, and commits by
-   making `next` and that buffer current. Until then nothing that the next step would read has changed; failing is
-   forgetting. */
+   A step copies the scalars `now` to `next`, runs the passes of its list (integrators.c) from buffer cur into
+   another, and commits by making `next` and that buffer current. Until then nothing that the next step would read has
+   changed; failing is forgetting. */
 #include "integrators.h"
 #include "limits.h"
 #include "sweep.h"

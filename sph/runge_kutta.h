@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* runge_kutta.h: the second halves of the Runge-Kutta forms, of one particle (Wickramarachchi 2009). Buffer src is the middle of the
-   step; positions and velocities are taken from it again. */
+/* runge_kutta.h: the second halves of the Runge-Kutta forms, of one particle (Wickramarachchi 2009). Buffer src is
+   the middle of the step; positions and velocities are taken from it again. */
 #ifndef SPH_RUNGE_KUTTA_H
 #define SPH_RUNGE_KUTTA_H
 
 #include "motion.h"
 
 /* x moves by d (m); the faces' rules apply as in the sort */
-static inline __attribute__((unused)) void sph_place(const sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
+SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     sph_pos q[SPH_DIM];
@@ -39,7 +39,7 @@ static inline __attribute__((unused)) void sph_place(const sph_sim *sim, uint32_
 }
 
 /* the second halves of the Runge-Kutta forms, as printed: 3.86-3.87, and 3.92 */
-static inline __attribute__((unused)) void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
+SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const bool momentum = SPH_IS(sim->cfg.integrator, RUNGE_KUTTA_MOMENTUM);

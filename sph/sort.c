@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* sort.c: the start of every stage. Moves the particles of buffer src into buffer dst, ordered by cell and inside a cell
-   by id, and fills the table of cell starts: two passes of a counting sort.
+/* sort.c: the start of every stage. Moves the particles of buffer src into buffer dst, ordered by cell and inside a
+   cell by id, and fills the table of cell starts: two passes of a counting sort.
 
    It runs in ranges of slabs (layers of cells along the last axis). A range looks only at particles that were in its
-   slabs or next to them, because a particle moves less than a cell in a step, and writes only its own cells: so ranges run
-   at once and in any order. (cell, id) is a total order, so neither ranges nor threads show in the result.
+   slabs or next to them, because a particle moves less than a cell in a step, and writes only its own cells: so
+   ranges run at once and in any order. (cell, id) is a total order, so neither ranges nor threads show in the result.
 
-   dst.id holds each particle's index in src until the stage's last pass writes the id itself. Costs the table of cells
-   (4 bytes each) and of slabs. */
+   dst.id holds each particle's index in src until the stage's last pass writes the id itself. Costs the table of
+   cells (4 bytes each) and of slabs. */
 #include "motion.h"
 #include "passes.h"
 
@@ -153,7 +153,8 @@ static void order_cell(const sph_sim *sim, uint32_t s, uint32_t e)
 }
 
 /* n particles of a block, from number j on, to the places at, at + 1, ... of dst */
-static void put_run(const sph_buffer *b, const sph_block *o, const uint8_t *set, uint32_t i, uint32_t j, uint32_t n, uint32_t at)
+static void put_run(const sph_buffer *b, const sph_block *o, const uint8_t *set, uint32_t i, uint32_t j, uint32_t n,
+                    uint32_t at)
 {
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         memcpy(b->pos[k] + at, o->pos[k] + j, n * sizeof(sph_pos));

@@ -258,7 +258,8 @@ typedef struct sph_config {
 
     sph_body_force body_force;
     void *body_ctx;
-    double damping; /* velocities are multiplied by it in predictor and corrector; 1: none (Gray 2.29) */
+    double damping; /* velocities are multiplied by it: twice a step with predictor-corrector (Gray 2.29) and kick-drift-
+                       kick, once with leap-frog and Runge-Kutta; 1: none */
 
     /* time */
     uint32_t integrator;

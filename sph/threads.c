@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* threads.c: what the threads of a pass see: failures, peaks, work, counts. None of it depends on how many threads there are. */
+/* threads.c: what the threads of a pass see: failures, peaks, work, counts. None of it depends on how many threads
+   there are. */
 #include "sweep.h"
 
 void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* yield.c: von Mises' yield: wherever the deviatoric stress S has advanced it returns to the yield surface.
 
-     S f, f = Y/sqrt(3 J2) where that is below 1, J2 = S:S/2 with the zz part      (von Mises; Gray 2001 eqs 5.13-5.15 mended)
+     S f, f = Y/sqrt(3 J2) where that is below 1, J2 = S:S/2 with the zz part      (Gray 2001 eqs 5.13-5.15 mended)
 
    Array: plastic (one real in every state buffer). Cost: a loop over solids after every advance; no sweep. */
 #include "locals.h"

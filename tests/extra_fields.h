@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* extra_fields.h: state fields of every way that the list in sph/fields.h knows, with one component and with one an axis. The
-   compiler includes it before every file of the kernel that test_lists.c is linked with; nothing else names them. */
+/* extra_fields.h: state fields of every way that the list in sph/fields.h knows, with one component and with one an
+   axis. The compiler includes it before every file of the kernel that test_lists.c is linked with; nothing else names
+   them. */
 #ifndef SPH_EXTRA_FIELDS_H
 #define SPH_EXTRA_FIELDS_H
 

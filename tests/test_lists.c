@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_lists.c: a state field is a line of a list. The kernel is compiled once more with the fields of extra_fields.h, and they
-   do what the list says of them, in every integrator: nothing else in the kernel names them. */
+/* test_lists.c: a state field is a line of a list. The kernel is compiled once more with the fields of extra_fields.h,
+   and they do what the list says of them, in every integrator: nothing else in the kernel names them. */
 #include "testing.h"
 
 #include "sph/internal.h"
@@ -20,7 +20,8 @@ static struct {
 
 static sph_real number_of(uint32_t id, uint32_t k) { return (sph_real)(1 + id % 7 + 0.25 * k); }
 
-/* rate of a value of particle id: constant, or -decay value; where an integrator asks for rates in the step's middle, half a step on */
+/* rate of a value of particle id: constant, or -decay value; where an integrator asks for rates in the step's middle,
+   half a step on */
 static sph_real rate_of(sph_real value, uint32_t id, uint32_t k)
 {
     const sph_real c = (sph_real)given.decay;
