@@ -70,7 +70,7 @@ SCENES := $(wildcard examples/scenes/*.c)
 PROGS  := $(wildcard examples/*.c)
 TOOLS  := $(filter-out tools/build.c,$(wildcard tools/*.c))
 EXTRA_LISTS := $(wildcard tests/extra_*.h)
-TESTS  := $(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c)))
+TESTS  := $(filter-out test_lists,$(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))))
 
 LIBS := $(BUILDS:%=$(BUILD)/libsph%.a)
 port_obj  := $(PORT:%.c=$(BUILD)/obj/%.o)
@@ -193,6 +193,21 @@ $(BUILD)/tests/$(1)_$(2): $(call obj_of,$(1),$(2))/tests/$(1).o $(call of_tool,$
 endef
 $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(eval $(call test_rule,$(t),$(b)))))
 $(foreach b,$(BUILDS),$(BUILD)/obj/$(b)/tests/test_dmath.o): HOST_CFLAGS += -Itests/refdata
+
+# the kernel once more, with a state field of every way (tests/extra_fields.h)
+define lists_rules
+$(BUILD)/obj/lists_$(1)/%.o: %.c tests/extra_fields.h
+	$$(say) cc "$$< (lists, $(1))"
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(HOST_CFLAGS) $(call defines,$(1)) -include tests/extra_fields.h -MMD -MP -c $$< -o $$@
+$(BUILD)/tests/test_lists_$(1): $(BUILD)/obj/lists_$(1)/tests/test_lists.o $(KERNEL:%.c=$(BUILD)/obj/lists_$(1)/%.o)
+	$$(say) link $$@
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(LDFLAGS) $$^ -o $$@ -lcmocka -lm
+endef
+LISTS_BUILDS := 1f 2f 3d
+$(foreach b,$(LISTS_BUILDS),$(eval $(call lists_rules,$(b))))
+test_bins += $(LISTS_BUILDS:%=$(BUILD)/tests/test_lists_%)
 
 # `make test` is one shell script so that cmocka is there before anything is compiled with it
 test:

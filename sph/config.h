@@ -3,7 +3,7 @@
 #ifndef SPH_CONFIG_H
 #define SPH_CONFIG_H
 
-#include "fluid.h"
+#include "factors.h"
 
 /* Checks everything that a configuration may be refused for; its grid and the bytes of its arena. c and r may be null. */
 #define sph_check_config SPH_NAME(check_config_)

@@ -7,7 +7,8 @@
 
    Arrays: damage (one real in every state buffer), flaw_start (4 bytes a particle), flaws (4 bytes each, in order of particle id,
    rising thresholds). Cost: a local pass; no sweep. */
-#include "solid.h"
+#include "locals.h"
+#include "locals.h"
 
 #if SPH_HAS_DAMAGE
 #include "dmath.h"
@@ -71,11 +72,13 @@ static sph_real root_of(sph_real x)
 #endif
 }
 
-void sph_grow_damage(sph_sim *sim, uint32_t first, uint32_t last)
+void sph_grow_damage(const sph_sim *sim, sph_span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     const uint32_t *id = b->id[0]; /* the particle's own by now */
-    for (uint32_t i = first; i < last; i++) {
+    if (!sph_damages(&sim->cfg))
+        return;
+    for (uint32_t i = s.first; i < s.last; i++) {
         if (b->set[0][i] == SPH_DEAD || !sph_is_solid(&sim->set[b->set[0][i]]) || !(b->damage[0][i] < 1))
             continue;
         const sph_set *set = &sim->set[b->set[0][i]];

@@ -14,8 +14,9 @@
 typedef sph_int sph_pos;
 #define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
 
-/* A tensor of SPH_DIM^2 components, row by row; a symmetric one: the diagonal, then xy, xz, yz. The deviatoric stress lacks the
-   last diagonal component in 3-D, which follows from the others (in 2-D and 1-D the missing ones are out of the plane). */
+/* A tensor of SPH_DIM^2 components, row by row; a symmetric one: the diagonal, then xy, xz, yz. The deviatoric stress
+   lacks the last diagonal component in 3-D, which follows from the others (in 2-D and 1-D the missing ones are out of
+   the plane): xx, or xx yy xy, or xx yy xy xz yz. */
 #define SPH_NL (SPH_DIM * SPH_DIM)
 #define SPH_NT (SPH_DIM * (SPH_DIM + 1) / 2)
 #define SPH_NS (SPH_DIM == 1 ? 1 : SPH_DIM == 2 ? 3 : 5)
@@ -28,7 +29,7 @@ typedef sph_int sph_pos;
        SPH_CARRIED    goes with its particle unchanged, until a pass of its own changes it
        SPH_DISPLACED  carried, and gains what the particle moved (quanta; component k is along axis k)
        SPH_EVOLVES(r) carried, and advanced by every integrator with its rate, field r
-     Reals that are carried or evolve must be finite at a step's end; | SPH_NOT_NEGATIVE or | SPH_SHARE (0 .. 1) asks for more.
+     Reals that are carried or evolve must be finite at a step's end; | SPH_NOT_NEGATIVE or | SPH_SHARE (0 .. 1): more.
    Sort, integrators, hash, dump, restore, wipe and arena sizes follow from it. */
 #define SPH_STATE_FIELDS(X)                                                                                       \
     X(pos, sph_pos, SPH_DIM, "quantum", true, SPH_PLACED)                                                         \
@@ -37,12 +38,12 @@ typedef sph_int sph_pos;
     X(acc, sph_real, SPH_DIM, "m/s^2", true, SPH_SUMMED)                                                          \
     X(drho, sph_real, 1, "1/s", true, SPH_SUMMED)                                                                 \
     X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c), SPH_SUMMED)                                               \
-    X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c), SPH_EVOLVES(dstress)) /* deviatoric: xx yy xy, xx yy xy xz yz */ \
+    X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c), SPH_EVOLVES(dstress)) /* deviatoric: see SPH_NS */       \
     X(dstress, sph_real, SPH_NS, "Pa/s", sph_has_solids(c), SPH_RATE)                                             \
     X(plastic, sph_real, 1, "1", sph_yields(c), SPH_CARRIED | SPH_NOT_NEGATIVE)                                   \
     X(damage, sph_real, 1, "1", sph_damages(c), SPH_CARRIED | SPH_SHARE) /* D^(1/SPH_DIM) */                      \
     X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c), SPH_DISPLACED) /* displacement since the start */      \
-    X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: the particle's index in the source buffer */ \
+    X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: an index into src */              \
     X(set, uint8_t, 1, "1", true, SPH_PLACED)                                                                     \
     SPH_EXTRA_FIELDS(X)
 
@@ -107,5 +108,8 @@ SPH_INLINE void *sph_array(const sph_buffer *b, uint32_t at)
     memcpy(&p, (const unsigned char *)b + at * sizeof p, sizeof p);
     return p;
 }
+
+/* what positions drift with beside vel, along axis k; null where the scene has no such field */
+SPH_INLINE const sph_real *sph_drift(const sph_buffer *b, uint32_t k) { return SPH_WITH_XSPH ? b->xsph[k] : NULL; }
 
 #endif

@@ -10,7 +10,6 @@
    The same text is compiled with the choices as constants (a line of SPH_FAST_FORCES each) and with choices read at run time (two
    general forms: without solids and with them). Arrays: none but the state's acc, drho, xsph and the powers of the books.
    Cost: one sweep a force evaluation. */
-#include "forces.h"
 #include "boundary.h"
 #include "continuity.h"
 #include "diffusion.h"
@@ -446,8 +445,7 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 
 static sph_status force_end(sph_sim *sim)
 {
-    sim->next.peaks.acc = SPH_SQRT(sim->next.peaks.acc);
-    sim->next.peaks.speed = SPH_SQRT(sim->next.peaks.speed);
+    sim->next.peaks = (sph_peaks){sim->peaks.mu, SPH_SQRT(sim->peaks.acc), SPH_SQRT(sim->peaks.speed)};
     return SPH_OK;
 }
 const sph_pass sph_pass_force = {"force", sph_sweep_chunks, force_chunk, force_end, NULL};

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* internal.h: the simulation's own data, and which file does what.
 
-   base       report.c failures; digest.c; arithmetic.c the probe of the machine; eos.c equations of state; kernels.c
-              smoothing kernels; dmath.c deterministic functions; lanes.h vectors
-   data       options.c the list of options (options.h); grid.c; layout.c the arena (arrays.h, fields.h); state.c
-   sort.c     moves particles and orders them by (cell, id): the start of every stage
-   sweep.c    the one neighbour sweep: candidates of a cell go into tiles, sums come out
-   fluid.c    pair formulas of water: density, momentum, viscosity, diffusion, XSPH, filters
-   solid.c    stress: rates, corrected gradients, yield; solid.h its pair formulas; damage.c flaws and damage
-   walls.c    boundary forces, Adami's extrapolation, crossing, moving walls
-   step.c     integrators as lists of passes, local passes; run.c runs them: time step, slices, threads, failure
-   entries    config.c, init.c; setup.c particles and boxes, bodies.c sets of fluid and solid, initial.c fields, layers.c
-              walls as rows or layers, shapes.c, flaws.c; reading.c, totals.c, probes.c; hash.c; dump.c, restore.c
-              on stream.c and records.c
+   base         report.c failures; digest.c; arithmetic.c the probe of the machine; eos.c, eos_lanes.h equations of state;
+                kernels.c smoothing kernels; dmath.c deterministic functions; tensor.h, lanes.h vectors
+   data         options.c the list of options (options.h); grid.c; fields.c the list of state fields; layout.c the arena
+                (arrays.h); scratch.h of threads; state.c
+   motion       sort.c orders particles by (cell, id), move.c where they go, faces.c the domain's faces, carry.c the other
+                fields; sweep.c candidates of a cell go into tiles (tiles.c), sums come out; threads.c
+   physics      one file a subject; terms of the force loop are headers: README.md in this folder lists them
+   composition  forces.c the loop over pairs; columns.c what modules' candidates bring; integrators.c lists of passes
+   running      run.c programs, slices, threads, failure; limits.c the time step
+   entries      config.c, init.c; setup.c particles and boxes, bodies.c sets of fluid and solid, initial.c fields,
+                layers.c walls as rows or layers, shapes.c, flaws.c; reading.c, totals.c, probes.c; hash.c; dump.c, restore.c
+                on stream.c and records.c
 
    Arrays: a state buffer holds what one moment of the scene is made of. A step reads buffer `cur`, writes another,
    and commits by changing `cur`: that is how a failed step leaves the state as it was. */
@@ -31,8 +31,9 @@
 #define SPH_PAD 48u       /* elements that may be read past an array's end by a vector */
 #define SPH_POWERS 4u     /* kept in the books: viscous, wall, diffusion, body force */
 #define SPH_PARTIALS (SPH_POWERS + 1u) /* sums of a chunk for the books: those, and energy given to held sets (J) */
-#define SPH_LIMIT_SQUARE ((sph_real)1e30) /* a sum of squares above this counts as not finite; a float holds 3e38 */
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
+/* a sum of squares above this counts as not finite: a float has room for a factor of 1e8 beyond */
+#define SPH_LIMIT_SQUARE ((sph_real)1e30)
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
 
 /* one particle set: constants that its particles share */
@@ -118,8 +119,15 @@ typedef struct sph_grid {
 struct sph_thread; /* per-thread scratch: scratch.h */
 
 typedef struct sph_pass sph_pass;
-/* the stage a sort belongs to: which positions it moves the particles to, and what else it advances */
-enum { SPH_ADV_COPY, SPH_ADV_PC, SPH_ADV_KDK, SPH_ADV_LEAP, SPH_ADV_RK };
+/* What a stage of an integrator does to the particles at its sort, as shares of dt (bend: of dt^2):
+   displacement = drift (v + drift velocity) + bend a, v' = v + kick a, what evolves + rate d/dt. */
+typedef struct sph_stage {
+    sph_real drift, bend, kick, rate;
+    bool damps;    /* v' is multiplied by cfg.damping */
+    bool reflects; /* particles that a mirror face turned are counted: not where the whole step will count them */
+    bool middle;   /* its sums are of positions at the step's end and velocities of its middle */
+} sph_stage;
+struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
 #define SPH_MAX_PROGRAM 48u
@@ -132,7 +140,9 @@ struct sph_sim {
     /* arrays */
     sph_buffer buf[3];
     uint32_t buffers, cur, src, dst; /* current state; source and target of the stage under way */
-    uint32_t src_count, mode;        /* particles in src; SPH_ADV_... of the stage */
+    uint32_t src_count;              /* particles in src */
+    const sph_stage *stage;          /* the one under way */
+    const struct sph_integrator *integrator; /* whose list of passes runs */
     bool src_table;                  /* cell[] belongs to src, so its slabs are known */
 #define SPH_ONE_MEMBER(name, type, count, when, what) type *name;
 #define SPH_MANY_MEMBER(name, type, components, count, when, what) type *name[components];
@@ -156,6 +166,7 @@ struct sph_sim {
     uint32_t limit;
     double limit_dt[SPH_LIMITS];
     uint64_t work, pairs, budget;
+    sph_peaks peaks; /* of the latest pass */
     uint32_t ranges, range_count[SPH_MAX_RANGES];
     sph_report report;
     /* marks */
@@ -247,12 +258,12 @@ SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID
 
 /* ---- shared by files ---- */
 
-#define sph_fail_note SPH_NAME(fail_note_)
-void sph_fail_note(struct sph_thread *t, sph_status s, uint32_t id, double value);
-
 /* state.c: records a failure with the pass under way and tells the host's fault hook; returns s */
 #define sph_error SPH_NAME(error_)
 sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle);
+/* the stress after damage (xx, yy, zz, xy, xz, yz; Pa, tension positive) and D of a particle of a buffer, in double */
+#define sph_stress_of SPH_NAME(stress_of_)
+double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress);
 #define sph_hash_buffer SPH_NAME(hash_buffer_)
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n);
 
@@ -330,6 +341,11 @@ SPH_INLINE uint32_t sph_run_end(const uint8_t *set, uint32_t s, uint32_t e)
     }
     return e;
 }
+
+/* Until a stage settles, array id of buffer dst holds each particle's index in src. */
+SPH_INLINE const uint32_t *sph_source_index(const sph_sim *sim) { return sim->buf[sim->dst].id[0]; }
+/* the id of particle i of dst, until the stage settles */
+SPH_INLINE uint32_t sph_source_id(const sph_sim *sim, uint32_t i) { return sim->buf[sim->src].id[0][sph_source_index(sim)[i]]; }
 
 /* whether a wall group is gone, and how fast it moves along an axis (m/s), at the end of the step under way */
 SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)

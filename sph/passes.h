@@ -1,20 +1,27 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* passes.h: the passes that integrators are made of. */
+/* passes.h: every pass that stands in the lists of integrators.c, where its module was compiled in. */
 #ifndef SPH_PASSES_H
 #define SPH_PASSES_H
 
 #include "internal.h"
 
+/* sort.c */
+#define sph_pass_count SPH_NAME(pass_count_)
+#define sph_pass_scatter SPH_NAME(pass_scatter_)
+/* forces.c */
+#define sph_pass_force SPH_NAME(pass_force_)
+/* density.c */
 #define sph_pass_summation SPH_NAME(pass_summation_)
 #define sph_pass_shepard SPH_NAME(pass_shepard_)
 #define sph_pass_copy_density SPH_NAME(pass_copy_density_)
+/* adami.c */
 #define sph_pass_adami SPH_NAME(pass_adami_)
 #define sph_pass_adami_copy SPH_NAME(pass_adami_copy_)
-#define sph_pass_count SPH_NAME(pass_count_)
-#define sph_pass_scatter SPH_NAME(pass_scatter_)
+/* correction.c, smoothing.c, gradient.c */
 #define sph_pass_correction SPH_NAME(pass_correction_)
-#define sph_pass_gradient SPH_NAME(pass_gradient_)
 #define sph_pass_smooth SPH_NAME(pass_smooth_)
-extern const sph_pass sph_pass_summation, sph_pass_shepard, sph_pass_copy_density, sph_pass_adami, sph_pass_adami_copy, sph_pass_count, sph_pass_scatter, sph_pass_correction, sph_pass_gradient, sph_pass_smooth;
+#define sph_pass_gradient SPH_NAME(pass_gradient_)
+extern const sph_pass sph_pass_count, sph_pass_scatter, sph_pass_force, sph_pass_summation, sph_pass_shepard,
+    sph_pass_copy_density, sph_pass_adami, sph_pass_adami_copy, sph_pass_correction, sph_pass_smooth, sph_pass_gradient;
 
 #endif

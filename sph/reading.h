@@ -4,7 +4,7 @@
 #ifndef SPH_READING_H
 #define SPH_READING_H
 
-#include "solid.h"
+#include "internal.h"
 
 /* where particle i of a buffer is (m) */
 SPH_INLINE void sph_position(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *x)

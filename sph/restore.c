@@ -2,7 +2,8 @@
 /* restore.c: sph_restore, which reads what sph_dump wrote (dump.h) into the spare buffer, looks at every value, and only
    then makes it current. */
 #include "dump.h"
-#include "fluid.h"
+#include "factors.h"
+#include "scratch.h"
 
 #if SPH_WITH_RESTORE
 

@@ -1,78 +1,12 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* run.c: the time step, slices, threads, and what happens when a step fails.
+/* run.c: slices, threads, and what happens when a step fails.
 
-   A step copies the scalars `now` to `next`, runs the passes of its list (step.c) from buffer cur into another, and commits by
-   making `next` and that buffer current. Until then nothing that the next step would read has changed; failing is
-   forgetting. */
-#include "fluid.h"
-
-/* ---- failures seen by threads ---- */
-
-void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value)
-{
-    if (t->fail.status == SPH_OK || id < t->fail.particle)
-        t->fail = (sph_fail){s, id, value};
-}
-
-/* ---- time step ---- */
-
-static double fastest_sound(const sph_sim *sim)
-{
-    double c = sim->cfg.sound_speed;
-    for (uint32_t s = 0; s < sim->sets; s++) {
-        const sph_set *set = &sim->set[s];
-        double own = set->c0;
-        if (sph_is_solid(set)) /* waves along the way of their motion (Gray 2001 eq 5.52) */
-            own = __builtin_sqrt(own * own + 4 * sph_material_of(sim, set)->shear / (3 * set->rho0));
-        c = own > c ? own : c;
-    }
-    return SPH_IS(sim->cfg.eos, TAIT_GRAY) ? c * 2.6457513110645905905 : c; /* sqrt 7 */
-}
-
-/* what each limit allows after a force sweep (Gray 2001 eq 2.30, Wickramarachchi 2009 eqs 3.88-3.90) */
-static void find_limits(const sph_sim *sim, double *l)
-{
-    const sph_config *c = &sim->cfg;
-    const double h = c->smoothing_length, c0 = fastest_sound(sim), a = (double)sim->now.peaks.acc;
-    double nu = SPH_IS(c->viscosity, MORRIS) ? c->nu : sph_viscous(c->viscosity) ? c->alpha * c0 * h / (2 * (SPH_DIM + 2)) : 0, g = 0;
-    for (int k = 0; k < SPH_DIM; k++)
-        g += c->gravity[k] * c->gravity[k];
-    g = __builtin_sqrt(g);
-    memset(l, 0, SPH_LIMITS * sizeof *l);
-    l[SPH_LIMIT_FIXED] = c->dt;
-    if (c->dt > 0)
-        return;
-    l[SPH_LIMIT_COURANT] = sim->courant * h / (c0 + h * (double)sim->now.peaks.mu);
-    if (nu > 0)
-        l[SPH_LIMIT_VISCOUS] = c->viscous_factor * h * h / nu;
-    if (a > 0)
-        l[SPH_LIMIT_FORCE] = c->force_factor * __builtin_sqrt(h / a);
-    l[SPH_LIMIT_GRAVITY] = g > 0 ? c->gravity_factor * h / (c0 + __builtin_sqrt(g * h)) : 0;
-    l[SPH_LIMIT_CEILING] = c->dt_max;
-}
-
-static sph_status choose_dt(sph_sim *sim, double t_end)
-{
-    double dt = 1e300;
-    find_limits(sim, sim->limit_dt);
-    for (uint32_t k = 0; k < SPH_LIMITS; k++)
-        if (sim->limit_dt[k] > 0 && sim->limit_dt[k] < dt) {
-            dt = sim->limit_dt[k];
-            sim->limit = k;
-        }
-    if (!(dt > 0) || dt < sim->cfg.dt_min || sim->now.time + dt == sim->now.time)
-        return sph_error(sim, SPH_STEP_COLLAPSED, sph_limit_text(sim->limit), "a step above dt_min", dt,
-                         SPH_NO_PARTICLE);
-    if (t_end - sim->now.time <= dt * (1 + 1e-9)) {
-        dt = t_end - sim->now.time;
-        sim->limit = SPH_LIMIT_TARGET;
-        sim->next.time = t_end;
-    } else {
-        sim->next.time = sim->now.time + dt;
-    }
-    sim->dt = dt;
-    return SPH_OK;
-}
+   A step copies the scalars `now` to `next`, runs the passes of its list (integrators.c) from buffer cur into
+   another, and commits by making `next` and that buffer current. Until then nothing that the next step would read has
+   changed; failing is forgetting. */
+#include "integrators.h"
+#include "limits.h"
+#include "sweep.h"
 
 /* ---- running a program ---- */
 
@@ -82,37 +16,19 @@ static uint32_t thread_count(const sph_sim *sim)
     return t < 1 ? 1 : t > sim->cfg.max_threads ? sim->cfg.max_threads : t;
 }
 
-static void clear_threads(sph_sim *sim)
+/* takes the passes of an integrator that were compiled in */
+static sph_status load_program(sph_sim *sim, const sph_integrator *g)
 {
-    for (uint32_t t = 0; t < sim->cfg.max_threads; t++) {
-        sph_thread *s = &sim->thread[t];
-        s->work = s->pairs = 0;
-        s->peaks = (sph_peaks){0, 0, 0};
-        s->fail = (sph_fail){SPH_OK, SPH_NO_PARTICLE, 0};
-        s->crossed = s->put_back = s->reflected = s->left = s->removed = s->widest = 0;
-    }
-}
-
-static sph_status load_program(sph_sim *sim, const sph_pass *const *p)
-{
+    sim->integrator = g;
     sim->passes = 0;
-    for (; *p; p++)
-        sim->program[sim->passes++] = *p;
+    for (uint32_t k = 0; k < g->count; k++)
+        if (g->passes[k])
+            sim->program[sim->passes++] = g->passes[k];
     sim->pc = sim->chunk = sim->chunks = 0;
     sim->work = sim->pairs = 0;
     sim->begun = true;
-    clear_threads(sim);
+    sph_clear_threads(sim);
     return SPH_OK;
-}
-
-static sph_status move_groups(sph_sim *sim, double t)
-{
-#if SPH_HAS_GROUPS
-    return sph_move_groups(sim, t);
-#else
-    (void)sim, (void)t;
-    return SPH_OK;
-#endif
 }
 
 /* begins the computation of the first forces; chunk_cells: how finely its sweeps and sorts can be sliced */
@@ -123,22 +39,22 @@ static sph_status begin_prime(sph_sim *sim, uint32_t chunk_cells)
         return sph_error(sim, SPH_BAD_STATE, "step", "after particles were added", 0, SPH_NO_PARTICLE);
     sim->next = sim->now;
     sim->dt = 0;
-    sph_status st = move_groups(sim, sim->now.time);
-    return st ? st : load_program(sim, sph_prime_program());
+    sph_status st = sph_prepare(sim, sim->now.time);
+    return st ? st : load_program(sim, sph_integrator_of(SPH_NO_INTEGRATOR));
 }
 
 static sph_status begin_step(sph_sim *sim, uint32_t chunk_cells)
 {
     sim->chunk_cells = chunk_cells;
     sim->next = sim->now;
-    sph_status st = choose_dt(sim, sim->t_end);
+    sph_status st = sph_choose_dt(sim, sim->t_end);
     if (st)
         return st;
     sim->next.step++;
     sim->next.dt_last = sim->dt;
-    if ((st = move_groups(sim, sim->next.time)) != SPH_OK)
+    if ((st = sph_prepare(sim, sim->next.time)) != SPH_OK)
         return st;
-    return load_program(sim, sph_program_of(sim->cfg.integrator));
+    return load_program(sim, sph_integrator_of(sim->cfg.integrator));
 }
 
 typedef struct job {
@@ -163,32 +79,6 @@ static void run_chunks(sph_sim *sim, uint32_t n)
     sim->chunk += n;
 }
 
-/* adds up what the threads saw in a pass and starts them afresh; none of it depends on order */
-static sph_fail gather_threads(sph_sim *sim)
-{
-    sph_fail fail = {SPH_OK, SPH_NO_PARTICLE, 0};
-    sph_peaks peaks = {0, 0, 0};
-    for (uint32_t t = 0; t < sim->cfg.max_threads; t++) {
-        const sph_thread *s = &sim->thread[t];
-        sim->work += s->work;
-        sim->pairs += s->pairs;
-        peaks.mu = s->peaks.mu > peaks.mu ? s->peaks.mu : peaks.mu;
-        peaks.acc = s->peaks.acc > peaks.acc ? s->peaks.acc : peaks.acc;
-        peaks.speed = s->peaks.speed > peaks.speed ? s->peaks.speed : peaks.speed;
-        if (s->fail.status && (!fail.status || s->fail.particle < fail.particle))
-            fail = s->fail;
-        sim->next.crossed += s->crossed;
-        sim->next.put_back += s->put_back;
-        sim->next.reflected += s->reflected;
-        sim->next.left += s->left + s->removed;
-        sim->mark_cell = s->widest > sim->mark_cell ? s->widest : sim->mark_cell;
-    }
-    if (sim->program[sim->pc] == &sph_pass_force)
-        sim->next.peaks = peaks;
-    clear_threads(sim);
-    return fail;
-}
-
 static const char *fail_quantity(sph_status s)
 {
     switch (s) {
@@ -197,9 +87,7 @@ static const char *fail_quantity(sph_status s)
     case SPH_OUT_OF_DOMAIN: return "x from the domain's low corner (m)";
     case SPH_MOVED_TOO_FAR: return "cells moved in one step";
     case SPH_WALL_CROSSED: return "depth inside the wall (m)";
-#if SPH_HAS_TOTAL
-    case SPH_BOND_TOO_LONG: return "length of a bond (m)";
-#endif
+    case SPH_BOND_TOO_LONG: return SPH_HAS_TOTAL ? "length of a bond (m)" : "";
     default: return "";
     }
 }
@@ -207,17 +95,15 @@ static const char *fail_quantity(sph_status s)
 static sph_status end_pass(sph_sim *sim)
 {
     const sph_pass *p = sim->program[sim->pc];
-    sph_fail fail = gather_threads(sim);
+    sph_fail fail = sph_gather_threads(sim);
     if (fail.status)
         return sph_error(sim, fail.status, fail_quantity(fail.status), "", fail.value, fail.particle);
     sph_status st = p->end ? p->end(sim) : SPH_OK;
     if (st)
         return st;
-#if SPH_WITH_STAGE_LOG
-    if (sim->cfg.stage_log)
+    if (SPH_WITH_STAGE_LOG && sim->cfg.stage_log)
         sim->cfg.stage_log(sim->cfg.stage_ctx, sim->next.step, p->name,
                            sph_hash_buffer(sim, &sim->buf[sim->dst], sim->next.count));
-#endif
     sim->pc++;
     sim->chunk = sim->chunks = 0;
     return SPH_OK;
@@ -378,7 +264,7 @@ void sph_get_step(const sph_sim *sim, sph_step_info *out)
     out->time = sim->now.time;
     out->dt = sim->last_dt;
     out->limit = sim->last_limit;
-    find_limits(sim, out->limit_dt);
+    sph_find_limits(sim, out->limit_dt);
     out->pairs = sim->last_pairs;
     out->work = sim->last_work;
     out->passes = sim->last_passes;

@@ -64,6 +64,16 @@ typedef struct sph_thread {
     uint32_t crossed, put_back, reflected, left, removed, widest;
 } sph_thread;
 
+/* the particles of a chunk of a local pass */
+typedef struct sph_span {
+    uint32_t first, last;
+} sph_span;
+SPH_INLINE sph_span sph_chunk_span(const sph_sim *sim, uint32_t chunk)
+{
+    const uint32_t first = chunk * SPH_LOCAL_CHUNK, last = first + SPH_LOCAL_CHUNK;
+    return (sph_span){first, last < sim->next.count ? last : sim->next.count};
+}
+
 _Static_assert(sizeof(sph_thread) <= SPH_SCRATCH_BYTES, "SPH_SCRATCH_BYTES in sph.h is too small");
 
 #endif

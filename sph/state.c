@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* state.c: what every file above may ask of a simulation: a failure reported with the pass it happened in, and the
-   digest of a state buffer. */
+/* state.c: what every file above may ask of a simulation: a failure reported with the pass it happened in, the stress of a
+   particle, and the digest of a state buffer. */
 #include "internal.h"
 
 /* each knob is 0 or 1, and what the preprocessor takes a module for agrees with what the list of knobs says it needs */
@@ -18,6 +18,26 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
         return SPH_BAD_ARGUMENT;
     const char *pass = sim->begun && sim->pc < sim->passes ? sim->program[sim->pc]->name : "";
     return sph_raise(&sim->report, &sim->cfg.port, &(sph_report){s, what, allowed, pass, value, particle});
+}
+
+double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress)
+{
+    double p = sph_pressure(sim, &sim->set[b->set[0][i]], (double)b->rho[0][i]), damage = 0, d[6] = {0};
+    if (SPH_HAS_DAMAGE && b->damage[0]) {
+        const double root = (double)b->damage[0][i];
+        damage = SPH_DIM == 3 ? root * root * root : root * root;
+    }
+    /* the deviator: what the state keeps, and what follows from a trace of 0 */
+    for (uint32_t k = 0; k < SPH_NS; k++)
+        d[SPH_DIM > 1 && k > 1 ? k + 1 : k] = (double)b->stress[k][i] * (1 - damage);
+    if (SPH_DIM == 1)
+        d[1] = d[2] = -0.5 * d[0];
+    else
+        d[2] = -(d[0] + d[1]);
+    p = p < 0 ? p * (1 - damage) : p;
+    for (int k = 0; k < 6; k++)
+        stress[k] = d[k] - (k < 3 ? p : 0);
+    return damage;
 }
 
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n)

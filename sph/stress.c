@@ -199,7 +199,7 @@ sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, co
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     const bool solid = sph_is_solid(set);
-    const bool middle = SPH_HAS_RATES_FIRST && solid && (sim->mode == SPH_ADV_KDK || sim->mode == SPH_ADV_LEAP);
+    const bool middle = SPH_HAS_RATES_FIRST && solid && sim->stage->middle;
     const sph_real dt = (sph_real)sim->dt;
     sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM], trace = 0;
     velocity_gradient(sim, i, raw, rho, sph_corrects(&sim->cfg) && solid, l);

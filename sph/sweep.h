@@ -47,7 +47,7 @@ SPH_INLINE vreal sph_seen_tensor(const sph_candidates *r, uint32_t k, uint32_t l
 
 /* A column set: rows of reals that a module's candidates (and, of bodies, homes) bring beside those of every tile. The
    loader writes row r of particle `first` + j to to[r * row + j], j = 0 .. n - 1, and may write SPH_W - 1 elements more.
-   Behind the last candidate all are 0. The module overlays a struct of its own on the rows (fluid.h tells which). */
+   Behind the last candidate all are 0. The module overlays a struct of its own on the rows in its header. */
 struct sph_column_set {
     uint8_t ghosts; /* 1: of ghosts; 0: of bodies, and of homes */
     uint8_t rows;
@@ -81,6 +81,15 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
 uint32_t sph_sweep_chunks(const sph_sim *sim);
 #define sph_local_chunks SPH_NAME(local_chunks_)
 uint32_t sph_local_chunks(const sph_sim *sim);
+
+/* threads.c: a failure seen by a thread; the smallest particle id wins, so it does not depend on threads */
+#define sph_fail_note SPH_NAME(fail_note_)
+void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value);
+/* starts what threads see afresh; adds up what they saw in a pass, and returns the failure, if there was one */
+#define sph_clear_threads SPH_NAME(clear_threads_)
+void sph_clear_threads(sph_sim *sim);
+#define sph_gather_threads SPH_NAME(gather_threads_)
+sph_fail sph_gather_threads(sph_sim *sim);
 
 /* tiles.c: the columns of every tile, for a run; `homes`: into the tile of homes */
 #define sph_load_tile SPH_NAME(load_tile_)

@@ -5,7 +5,7 @@
    same hash as one that was never disturbed. (Arrays of indices are not attacked: the kernel trusts its own.) */
 #include "testing.h"
 
-#include "sph/fluid.h"
+#include "sph/scratch.h"
 #include "state.h"
 
 #define N (SPH_DIM == 1 ? 40u : SPH_DIM == 2 ? 10u : 5u)

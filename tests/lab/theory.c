@@ -15,7 +15,7 @@
    Steps. Sums count with the mass of a particle. At no stress positions do not matter. A wave is q = (rho, S;
    or, with summed density, x) and v:
      q' = A v,   v' = B q - D v,   D = alpha h c0 d
-   and a step, as step.c and sort.c do it, is
+   and a step, as kick.h and move.c do it, is
      kick-drift-kick, leap-frog   q += dt A w, w += dt (B q - D w) of the velocity w at half steps: both are the same
      predictor-corrector          q_p = q + dt q'_o, v_p = v + dt a_o, rates (q', a) of these, q = q_p + dt/2 (q' - q'_o), v alike;
                                   the rates are kept: one evaluation a step. Summed: x = x + dt v + dt^2/2 a_o is not corrected

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* carry.c: every field beside positions, velocities and densities goes with its particle (pass "carry", after the
+   sort) and, where the list of fields says that it evolves, is advanced with its rate by whatever integrator runs.
+   Scenes without such fields have none of it.
+
+   Cost: for each component a loop that gathers from buffer src, and one or two that add the rate. */
+#include "motion.h"
+
+/* elements of any kind from where their particles were */
+static void take(void *to, const void *from, const uint32_t *at, size_t bytes, sph_span s)
+{
+    unsigned char *t = to;
+    const unsigned char *f = from;
+    if (bytes == sizeof(sph_real))
+        for (uint32_t i = s.first; i < s.last; i++)
+            memcpy(t + i * sizeof(sph_real), f + at[i] * sizeof(sph_real), sizeof(sph_real));
+    else
+        for (uint32_t i = s.first; i < s.last; i++)
+            memcpy(t + i * bytes, f + at[i] * bytes, bytes);
+}
+
+/* displacements: what the particles moved in this stage, round a periodic domain if need be, is added along axis k */
+static void displace(const sph_sim *sim, sph_pos *to, const sph_pos *from, uint32_t k, sph_span s)
+{
+    const sph_pos *pos = sim->buf[sim->dst].pos[k], *old = sim->buf[sim->src].pos[k];
+    const sph_pos whole = sim->grid.extent[k], half = whole / 2;
+    const bool round = SPH_IS(sim->cfg.face[k][0], PERIODIC);
+    const uint32_t *at = sph_source_index(sim);
+    for (uint32_t i = s.first; i < s.last; i++) {
+        sph_pos d = pos[i] - old[at[i]];
+        if (round)
+            d = d > half ? d - whole : d < -half ? d + whole : d;
+        to[i] = from[at[i]] + d;
+    }
+}
+
+/* carried and displaced fields from src */
+static void take_fields(const sph_sim *sim, sph_span s)
+{
+    for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++)
+        for (uint32_t k = 0; k < f->comps && (f->way == SPH_CARRIED || f->way == SPH_DISPLACED); k++) {
+            void *to = sph_array(&sim->buf[sim->dst], f->at + k);
+            const void *from = sph_array(&sim->buf[sim->src], f->at + k);
+            if (to && f->way == SPH_CARRIED)
+                take(to, from, sph_source_index(sim), f->bytes, s);
+            else if (to)
+                displace(sim, to, from, k, s);
+        }
+}
+
+/* one component of a field that evolves, and its rate, in buffers dst and src; to null: there are no more */
+typedef struct evolving {
+    uint32_t field, comp;
+    sph_real *to;
+    const sph_real *rate, *from, *old_rate;
+} evolving;
+
+static evolving evolving_from(const sph_sim *sim, uint32_t field, uint32_t comp)
+{
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    for (; field < SPH_FIELD_COUNT; field++, comp = 0) {
+        const sph_field *f = &sph_fields[field];
+        const uint32_t at = f->at + comp, rate = f->rate + comp;
+        if (f->way == SPH_EVOLVING && comp < f->comps && sph_array(b, at))
+            return (evolving){field, comp, sph_array(b, at), sph_array(b, rate), sph_array(o, at), sph_array(o, rate)};
+    }
+    return (evolving){0, 0, NULL, NULL, NULL, NULL};
+}
+static evolving first_evolving(const sph_sim *sim) { return evolving_from(sim, 0, 0); }
+static evolving next_evolving(const sph_sim *sim, const evolving *e)
+{
+    return evolving_from(sim, e->field, e->comp + 1);
+}
+
+void sph_carry_fields(sph_sim *sim, sph_span s)
+{
+    if (!sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS))
+        return;
+    const uint32_t *at = sph_source_index(sim);
+    const sph_real step = sim->stage->rate * (sph_real)sim->dt;
+    for (evolving e = first_evolving(sim); e.to; e = next_evolving(sim, &e))
+        for (uint32_t i = s.first; i < s.last; i++)
+            e.to[i] = e.from[at[i]] + step * e.old_rate[at[i]];
+    take_fields(sim, s);
+    for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++)
+        for (uint32_t k = 0; k < f->comps && f->way == SPH_RATE && sph_array(&sim->buf[sim->dst], f->at); k++)
+            memset((unsigned char *)sph_array(&sim->buf[sim->dst], f->at + k) + (size_t)s.first * f->bytes, 0,
+                   (size_t)(s.last - s.first) * f->bytes);
+}
+
+void sph_correct_fields(sph_sim *sim, sph_span s)
+{
+    if (!sph_has_ways(&sim->cfg, 1u << SPH_EVOLVING))
+        return;
+    const uint32_t *at = sph_source_index(sim);
+    const sph_real half = (sph_real)sim->dt * (sph_real)0.5;
+    for (evolving e = first_evolving(sim); e.to; e = next_evolving(sim, &e))
+        for (uint32_t i = s.first; i < s.last; i++)
+            e.to[i] = e.to[i] + half * (e.rate[i] - e.old_rate[at[i]]);
+}
+
+void sph_evolve_fields(sph_sim *sim, sph_span s)
+{
+    if (!sph_has_ways(&sim->cfg, 1u << SPH_EVOLVING))
+        return;
+    const sph_real dt = (sph_real)sim->dt;
+    for (evolving e = first_evolving(sim); e.to; e = next_evolving(sim, &e))
+        for (uint32_t i = s.first; i < s.last; i++)
+            e.to[i] = e.to[i] + dt * e.rate[i];
+}
+
+void sph_retake_fields(sph_sim *sim, sph_span s)
+{
+    if (!sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS))
+        return;
+    const uint32_t *at = sph_source_index(sim);
+    const sph_real dt = (sph_real)sim->dt;
+    for (evolving e = first_evolving(sim); e.to; e = next_evolving(sim, &e))
+        for (uint32_t i = s.first; i < s.last; i++)
+            e.to[i] = e.from[at[i]] + dt * e.rate[i];
+    take_fields(sim, s);
+}
+
+void sph_displace_fields(const sph_sim *sim, const sph_buffer *b, uint32_t i, uint32_t k, sph_pos d)
+{
+    if (!sph_has_ways(&sim->cfg, 1u << SPH_DISPLACED))
+        return;
+    for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++) {
+        sph_pos *to = f->way == SPH_DISPLACED && k < f->comps ? sph_array(b, f->at + k) : NULL;
+        if (to)
+            to[i] += d;
+    }
+}

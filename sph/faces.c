@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* faces.c: the rules of the domain's faces for one particle. Periodic: it comes in on the other side; mirrors: it is
+   reflected, and its velocity turns; open: it has left. */
+#include "motion.h"
+
+/* puts a coordinate that left the domain back by the face's rule: 0 fine, 1 reflected, 2 left */
+static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
+{
+    const bool high = *q >= sim->grid.extent[k];
+    if (*q >= 0 && !high)
+        return 0;
+    const uint32_t face = sim->cfg.face[k][high];
+    if (SPH_IS(face, PERIODIC))
+        *q += high ? -sim->grid.extent[k] : sim->grid.extent[k];
+    else if (SPH_IS(face, SYMMETRY) || SPH_IS(face, MIRROR_NO_SLIP))
+        *q = high ? 2 * sim->grid.extent[k] - 1 - *q : -*q;
+    else
+        return 2;
+    /* a move of a whole domain may end a quantum outside again */
+    *q = *q < 0 ? 0 : *q < sim->grid.extent[k] ? *q : sim->grid.extent[k] - 1;
+    return SPH_IS(face, PERIODIC) ? 0 : 1;
+}
+
+int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v)
+{
+    int worst = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        int r = enforce_face(sim, k, &q[k]);
+        if (r == 1)
+            v[k] = -v[k];
+        worst = r > worst ? r : worst;
+    }
+    return worst;
+}

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* integrators.c: the integrators as lists of passes, and the local passes: what is done to each particle before and
+   after the sums. run.c runs the lists. To add an integrator: its list, its stages, and a row in the table at the
+   end.
+
+   A step goes from buffer cur into another; nothing that the next step would read changes before run.c commits. */
+#include "integrators.h"
+
+#include "kick.h"
+#include "locals.h"
+#include "motion.h"
+#include "passes.h"
+#include "runge_kutta.h"
+
+/* ---- stages: passes that only say where the next sort goes ---- */
+
+static uint32_t spare(const sph_sim *sim, uint32_t a, uint32_t b)
+{
+    for (uint32_t k = 0; k < sim->buffers; k++)
+        if (k != a && k != b)
+            return k;
+    return 0;
+}
+
+static sph_status begin(sph_sim *sim)
+{
+    const sph_integrator *g = sim->integrator;
+    sph_begin_sort(sim, sim->cur, spare(sim, sim->cur, sim->cur), sim->now.count, sim->table_valid,
+                   sim->now.started ? g->first : g->begins);
+    return SPH_OK;
+}
+static const sph_pass pass_begin = {"begin", NULL, NULL, begin, NULL};
+
+static sph_status begin_second(sph_sim *sim)
+{
+    sph_begin_sort(sim, sim->dst, spare(sim, sim->cur, sim->dst), sim->next.count, true, sim->integrator->second);
+    return SPH_OK;
+}
+static const sph_pass pass_begin_second = {"begin second stage", NULL, NULL, begin_second, NULL};
+
+/* ---- what modules do to particles, where nothing is summed ---- */
+
+/* before a step that ends at time t */
+sph_status sph_prepare(sph_sim *sim, double t) { return SPH_HAS_GROUPS ? sph_move_groups(sim, t) : SPH_OK; }
+
+/* wherever fields have advanced: back to where laws keep them */
+static void restrain(const sph_sim *sim, sph_span s)
+{
+    if (SPH_HAS_YIELD)
+        sph_yield(sim, s);
+}
+
+/* when all of a particle has advanced, at a step's end */
+static void finish(sph_sim *sim, uint32_t chunk, sph_span s, sph_thread *t)
+{
+    sph_settle(sim, s);
+    if (SPH_HAS_DAMAGE)
+        sph_grow_damage(sim, s);
+    if (SPH_HAS_WALLS)
+        sph_cross_walls(sim, s, t);
+    sph_check(sim, s, t);
+    if (SPH_WITH_BOOKS)
+        sph_sum_powers(sim, chunk, s);
+    t->work += s.last - s.first;
+}
+static sph_status finished(sph_sim *sim) { return SPH_WITH_BOOKS ? sph_add_powers(sim) : SPH_OK; }
+
+/* ---- local passes ---- */
+
+/* after every sort: all fields that the sort did not move */
+static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_span s = sph_chunk_span(sim, chunk);
+    sph_carry_fields(sim, s);
+    restrain(sim, s);
+    t->work += s.last - s.first;
+}
+static bool carries(const sph_sim *sim) { return sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS); }
+static const sph_pass pass_carry = {"carry", sph_local_chunks, carry_chunk, NULL, carries};
+
+/* predictor-corrector */
+static void correct_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_span s = sph_chunk_span(sim, chunk);
+    sph_correct_fields(sim, s);
+    restrain(sim, s);
+    sph_correct(sim, s);
+    finish(sim, chunk, s, t);
+}
+static const sph_pass pass_correct = {"correct", sph_local_chunks, correct_chunk, finished, NULL};
+
+/* kick-drift-kick and leap-frog: what evolves goes a whole step, before the forces */
+static void density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_span s = sph_chunk_span(sim, chunk);
+    sph_density_whole(sim, s);
+    sph_evolve_fields(sim, s);
+    restrain(sim, s);
+    t->work += s.last - s.first;
+}
+static const sph_pass pass_density = {"density", sph_local_chunks, density_chunk, NULL, NULL};
+
+/* kick-drift-kick: the second kick */
+static void kick_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_span s = sph_chunk_span(sim, chunk);
+    sph_kick(sim, s, (sph_real)sim->dt * (sph_real)0.5);
+    finish(sim, chunk, s, t);
+}
+static const sph_pass pass_kick = {"kick", sph_local_chunks, kick_chunk, finished, NULL};
+
+/* leap-frog */
+static void velocity_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_span s = sph_chunk_span(sim, chunk);
+    sph_kick(sim, s, (sph_real)sim->dt);
+    finish(sim, chunk, s, t);
+}
+static const sph_pass pass_velocity = {"velocity", sph_local_chunks, velocity_chunk, finished, NULL};
+
+/* Runge-Kutta: the end of the first stage, and of the second */
+static void settle_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_span s = sph_chunk_span(sim, chunk);
+    sph_settle(sim, s);
+    t->work += s.last - s.first;
+}
+static const sph_pass pass_settle = {"settle", sph_local_chunks, settle_chunk, NULL, NULL};
+
+static void advance_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_span s = sph_chunk_span(sim, chunk);
+    for (uint32_t i = s.first; i < s.last; i++)
+        sph_runge_kutta(sim, i, t);
+    sph_retake_fields(sim, s);
+    restrain(sim, s);
+    finish(sim, chunk, s, t);
+}
+static const sph_pass pass_advance = {"advance", sph_local_chunks, advance_chunk, finished, NULL};
+
+/* the end of the first forces */
+static void prime_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    settle_chunk(sim, chunk, t);
+    if (SPH_WITH_BOOKS)
+        sph_sum_powers(sim, chunk, sph_chunk_span(sim, chunk));
+}
+static sph_status primed(sph_sim *sim) { return SPH_WITH_BOOKS ? sph_first_powers(sim) : SPH_OK; }
+static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, primed, NULL};
+
+/* ---- the lists: what each integrator does, in order ---- */
+
+/* a pass of a module, or null where that was left out */
+#define MODULE(knob, pass) ((knob) ? &(pass) : NULL)
+
+#define SORT &sph_pass_count, &sph_pass_scatter, &pass_carry
+#define DENSITIES                                                                                                  \
+    MODULE(SPH_WITH_SHEPARD, sph_pass_shepard), MODULE(SPH_WITH_SUMMATION, sph_pass_summation),                    \
+        MODULE(SPH_HAS_FILTERS, sph_pass_copy_density)
+#define FORCES                                                                                                     \
+    MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami), MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami_copy),                 \
+        MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),             \
+        MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
+
+typedef const sph_pass *const list[];
+static list first_forces = {&pass_begin, SORT, DENSITIES, FORCES, &pass_prime};
+static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, &pass_correct};
+static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, &pass_kick};
+static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, &pass_velocity};
+static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
+                           &pass_begin_second, SORT, DENSITIES, FORCES, &pass_advance};
+
+/* what the sorts do: drift, bend, kick, rate; damps, reflects, middle */
+static const sph_stage stays = {0, 0, 0, 0, false, true, false};
+static const sph_stage predicts = {1, 0.5, 1, 1, true, true, false};       /* Gray 2001 eqs 2.26, 2.27, 2.29 */
+static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0, true, true, true};
+static const sph_stage leaps = {1, 0, 0, 0, false, true, true};
+static const sph_stage first_leap = {1, 0.5, 0.5, 0, false, true, true};   /* turns v^0 into v^(1/2) */
+static const sph_stage half_way = {0.5, 0, 0.5, 0.5, false, false, false}; /* Wickramarachchi 3.85, mean of 3.91 */
+
+/* ---- the table ---- */
+
+/* left out: an empty list */
+#define ROW(knob, passes, first, begins, second)                                                                   \
+    {MODULE(knob, (passes)[0]), (knob) ? sizeof(passes) / sizeof *(passes) : 0,                                    \
+     MODULE(knob, first), MODULE(knob, begins), MODULE(knob, second)}
+static const sph_integrator integrators[SPH_NO_INTEGRATOR + 1] = {
+    [SPH_PREDICTOR_CORRECTOR] = ROW(SPH_WITH_PREDICTOR_CORRECTOR, predictor_corrector, predicts, predicts, stays),
+    [SPH_KICK_DRIFT_KICK] = ROW(SPH_WITH_KICK_DRIFT_KICK, kick_drift_kick, kicks_and_drifts, kicks_and_drifts, stays),
+    [SPH_LEAP_FROG] = ROW(SPH_WITH_LEAP_FROG, leap_frog, leaps, first_leap, stays),
+    [SPH_RUNGE_KUTTA] = ROW(SPH_WITH_RUNGE_KUTTA, runge_kutta, stays, stays, half_way),
+    [SPH_RUNGE_KUTTA_MOMENTUM] = ROW(SPH_WITH_RUNGE_KUTTA_MOMENTUM, runge_kutta, stays, stays, half_way),
+    [SPH_NO_INTEGRATOR] = ROW(true, first_forces, stays, stays, stays),
+};
+
+const sph_integrator *sph_integrator_of(uint32_t integrator) { return &integrators[integrator]; }
