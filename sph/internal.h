@@ -10,9 +10,9 @@
    solid.c    stress: rates, corrected gradients, yield; solid.h its pair formulas; damage.c flaws and damage
    walls.c    boundary forces, Adami's extrapolation, crossing, moving walls
    step.c     integrators as lists of passes, local passes; run.c runs them: time step, slices, threads, failure
-   entries    config.c, init.c; setup.c particles and boxes, bodies.c sets of fluid and solid, initial.c fields, layers.c
-              walls as rows or layers, shapes.c, flaws.c; reading.c, totals.c, probes.c; hash.c; dump.c, restore.c
-              on stream.c and records.c
+   entries    config.c, init.c; setup.c particles and boxes, bodies.c sets of fluid and solid, initial.c fields,
+              layers.c walls as rows or layers, shapes.c, flaws.c; reading.c, totals.c, probes.c; hash.c; dump.c,
+              restore.c on stream.c and records.c
 
    Arrays: a state buffer holds what one moment of the scene is made of. A step reads buffer `cur`, writes another,
    and commits by changing `cur`: that is how a failed step leaves the state as it was. */
@@ -207,7 +207,8 @@ _Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 &
     (1 << SPH_NO_SOLID | SPH_WITH_SOLID << SPH_UPDATED | (SPH_WITH_SOLID && SPH_WITH_CORRECTED) << SPH_CORRECTED |   \
      SPH_HAS_TOTAL << SPH_TOTAL)
 #define SPH_YIELDS_IN (1 << SPH_NO_YIELD | SPH_HAS_YIELD << SPH_VON_MISES | SPH_HAS_YIELD << SPH_VON_MISES_GRAY)
-#define SPH_DAMAGES_IN (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
+#define SPH_DAMAGES_IN                                                                                      \
+    (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
 #define SPH_REPULSIONS_IN                                                                                   \
     (1 << SPH_NO_ARTIFICIAL_STRESS | SPH_HAS_REPULSION << SPH_PRINCIPAL | SPH_HAS_REPULSION << SPH_COMPONENTS)
 
@@ -230,13 +231,19 @@ SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->s
 SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
 SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }
-SPH_INLINE bool sph_repels(const sph_config *c) { return SPH_HAS_REPULSION && c->artificial_stress != SPH_NO_ARTIFICIAL_STRESS; }
+SPH_INLINE bool sph_repels(const sph_config *c)
+{
+    return SPH_HAS_REPULSION && c->artificial_stress != SPH_NO_ARTIFICIAL_STRESS;
+}
 SPH_INLINE bool sph_smooths_strain(const sph_config *c) { return SPH_HAS_HAT && c->xsph_strain && sph_has_solids(c); }
 
 /* whether a set is made of what moves by forces, not wall */
 #define SPH_BODIES (1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_SOLID)
 SPH_INLINE bool sph_is_solid(const sph_set *s) { return SPH_WITH_SOLID && s->role == SPH_ROLE_SOLID; }
-SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set *s) { return sim->material + (s - sim->set); }
+SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set *s)
+{
+    return sim->material + (s - sim->set);
+}
 SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */
@@ -246,7 +253,8 @@ void sph_fail_note(struct sph_thread *t, sph_status s, uint32_t id, double value
 
 /* state.c: records a failure with the pass under way and tells the host's fault hook; returns s */
 #define sph_error SPH_NAME(error_)
-sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle);
+sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value,
+                     uint32_t particle);
 #define sph_hash_buffer SPH_NAME(hash_buffer_)
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n);
 
@@ -295,7 +303,11 @@ SPH_INLINE double sph_pressure(const sph_sim *sim, const sph_set *s, double d)
 {
     return sph_eos_pressure(s->eos, (double)s->b_r, d, sim->cfg.pressure_floor && !sph_is_solid(s));
 }
-SPH_INLINE double sph_density_of(const sph_set *s, double p) { return sph_eos_excess(s->eos, (double)s->b_r, p); }
+SPH_INLINE double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
+{
+    (void)sim;
+    return sph_eos_excess(s->eos, (double)s->b_r, p);
+}
 
 SPH_INLINE bool sph_finite(double x) { return x - x == 0; }
 SPH_INLINE double sph_abs(double x) { return x < 0 ? -x : x; }
