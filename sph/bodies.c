@@ -59,7 +59,10 @@ static sph_status check_solid(sph_sim *sim, const sph_solid *m)
     const struct {
         const char *what;
         double v;
-    } real[] = {{"shear", m->shear},           {"yield", m->yield}, {"hardening", m->hardening}, {"crack_speed", m->crack_speed},
+    } real[] = {{"shear", m->shear},
+                {"yield", m->yield},
+                {"hardening", m->hardening},
+                {"crack_speed", m->crack_speed},
                 {"flaw_radius", m->flaw_radius}};
     if (!sph_has_solids(&sim->cfg))
         return sph_setup_bad(sim, "solid", "a configuration with a solid form", sim->cfg.solid);
@@ -73,12 +76,21 @@ static sph_status check_solid(sph_sim *sim, const sph_solid *m)
     if (m->body > 255)
         return sph_setup_bad(sim, "body", "0 .. 255", m->body);
     if (m->held >> SPH_DIM || (m->held && !SPH_HAS_HELD))
-        return sph_setup_bad(sim, "held", SPH_HAS_HELD ? "bits of axes" : "0: held sets were left out (modules.h)", m->held);
+        return sph_setup_bad(sim, "held", SPH_HAS_HELD ? "bits of axes" : "0: held sets were left out (modules.h)",
+                             m->held);
     if (m->motion && !m->held)
         return sph_setup_bad(sim, "motion", "null, or held along an axis", 1);
     if (m->held && sim->groups == SPH_MAX_GROUPS)
-        return sph_error(sim, SPH_TOO_MANY_SETS, "wall groups and held sets", "at most SPH_MAX_GROUPS", sim->groups, SPH_NO_PARTICLE);
+        return sph_error(sim, SPH_TOO_MANY_SETS, "wall groups and held sets", "at most SPH_MAX_GROUPS", sim->groups,
+                         SPH_NO_PARTICLE);
     return SPH_OK;
+}
+
+/* of the disc or ball with a particle's volume */
+static double radius_of(double volume)
+{
+    const double pi = 3.14159265358979323846;
+    return SPH_DIM == 3 ? sph_pow(volume * 3 / (4 * pi), 1.0 / 3) : __builtin_sqrt(volume / pi);
 }
 
 sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32_t *group)
@@ -93,10 +105,7 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32
     s->role = SPH_ROLE_SOLID;
     sph_material *rock = &sim->material[sim->sets];
     *rock = (sph_material){m->shear, m->yield, m->hardening, 0, (sph_real)m->shear, m->body, m->held};
-    const double volume = s->mass / s->rho0;
-    double radius = m->flaw_radius; /* of the disc or ball with the particle's volume */
-    if (!(radius > 0))
-        radius = SPH_DIM == 3 ? sph_pow(volume * 3 / (4 * 3.14159265358979323846), 1.0 / 3) : __builtin_sqrt(volume / 3.14159265358979323846);
+    const double radius = m->flaw_radius > 0 ? m->flaw_radius : radius_of(s->mass / s->rho0);
     rock->crack_rate = (m->crack_speed > 0 ? m->crack_speed : 0.4 * s->c0) / radius;
     if (m->held)
         s->group = sph_setup_add_group(sim, m->motion, m->motion_ctx);

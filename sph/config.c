@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* config.c: whole configurations: defaults, what options ask of each other, what may change between steps. What each may
-   be alone is in the list of options (options.h). */
+/* config.c: whole configurations: defaults, what options ask of each other, what may change between steps. What each
+   may be alone is in the list of options (options.h). */
 #include "config.h"
 
 sph_config sph_config_default(void) { return sph_options_start; }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* eos.h: the equations of state in double, of the relative density excess d = (rho - rho0)/rho0 (see SPH_TAIT in sph.h).
-   `scale` is rho0 c0^2 (Pa), of TAIT a seventh of it. Sweeps have their own on lanes. */
+/* eos.h: the equations of state in double, of the relative density excess d = (rho - rho0)/rho0 (see SPH_TAIT in
+   sph.h). `scale` is rho0 c0^2 (Pa), of TAIT a seventh of it. Sweeps have their own on lanes. */
 #ifndef SPH_EOS_H
 #define SPH_EOS_H
 

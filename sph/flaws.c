@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* flaws.c: the flaws that damage grows from: n(eps) = k eps^m of them a unit volume fail below the strain eps (Weibull), with
-   thresholds (p/(k V))^(1/m) (Gray 2001 eqs 5.40, 5.41). Drawn between steps; how damage grows is in damage.c. */
+/* flaws.c: the flaws that damage grows from: n(eps) = k eps^m of them a unit volume fail below the strain eps
+   (Weibull), with thresholds (p/(k V))^(1/m) (Gray 2001 eqs 5.40, 5.41). Drawn between steps; how damage grows is in
+   damage.c. */
 #include "dmath.h"
 #include "setup.h"
 
@@ -44,16 +45,15 @@ static sph_status find_ids(sph_sim *sim, uint32_t set, drawing *d)
     if (d->n == 0)
         return sph_setup_bad(sim, "set", "a set with particles", set);
     if (last - d->first + 1 != d->n)
-        return sph_setup_bad(sim, "set", "a set whose particles were added one after the other, without another set's between", set);
+        return sph_setup_bad(sim, "set",
+                             "a set whose particles were added one after the other, without another set's between",
+                             set);
     return SPH_OK;
 }
 
-sph_status sph_add_flaws(sph_sim *sim, uint32_t set, const sph_flaws *f)
+/* whether a set may be given flaws like these */
+static sph_status check_flaws(sph_sim *sim, uint32_t set, const sph_flaws *f)
 {
-    sph_status st = sph_setup_begin_adding(sim, "sph_add_flaws");
-    drawing d;
-    if (st)
-        return st;
     if (!sph_damages(&sim->cfg))
         return sph_setup_bad(sim, "damage", "a configuration with damage", sim->cfg.damage);
     if (set >= sim->sets || !sph_is_solid(&sim->set[set]))
@@ -64,22 +64,17 @@ sph_status sph_add_flaws(sph_sim *sim, uint32_t set, const sph_flaws *f)
         return sph_setup_bad(sim, "flaws.k", "> 0 and finite", f->k);
     if (!(f->m >= 1 && f->m <= 50))
         return sph_setup_bad(sim, "flaws.m", "1 .. 50", f->m);
-    if ((st = find_ids(sim, set, &d)) != SPH_OK)
-        return st;
-    uint32_t *start = sim->flaw_start, *const end = start + d.first + d.n;
-    if (start[d.first + d.n] != start[d.first])
-        return sph_setup_bad(sim, "set", "a set without flaws", set);
-    /* the first run of draws counts, the second places; at most so many draws, which is far beyond what any seed needs */
-    const double n = d.n, wanted = n > 1 ? n * sph_log(n) : 1, volume = n * sim->set[set].mass / sim->set[set].rho0;
-    const uint64_t enough = (uint64_t)(wanted + 0.5) > 1 ? (uint64_t)(wanted + 0.5) : 1, limit = 64 * (enough + 64);
-    d.most = (uint32_t)enough;
-    d.state = f->seed;
-    const uint32_t before = sim->flaws, base = start[d.first];
+    return SPH_OK;
+}
+
+/* The first run of draws, `enough` or more: how many flaws each particle gets, into kept, and all together; *draws: how
+   many it took, at most so many that no seed needs more. */
+static uint32_t count_flaws(drawing d, uint64_t enough, uint32_t *kept, uint64_t *draws)
+{
+    const uint64_t limit = 64 * (enough + 64);
     uint32_t bare = d.n, total = 0, p;
-    uint64_t draws = 0;
-    uint32_t *const kept = sim->buf[(sim->cur + 1) % sim->buffers].id[0]; /* counts, in the buffer that is not in use */
     memset(kept + d.first, 0, (size_t)d.n * sizeof *kept);
-    for (; (draws < enough || bare > 0) && draws < limit; draws++) {
+    for (*draws = 0; (*draws < enough || bare > 0) && *draws < limit; ++*draws) {
         const uint32_t id = next_flaw(&d, &p);
         if (kept[id] == SPH_MAX_FLAWS)
             continue;
@@ -87,32 +82,63 @@ sph_status sph_add_flaws(sph_sim *sim, uint32_t set, const sph_flaws *f)
         kept[id]++;
         total++;
     }
-    if (total > sim->cfg.max_flaws - before)
-        return sph_error(sim, SPH_TOO_MANY_FLAWS, "max_flaws", "at least so many as the value says", (double)before + total, SPH_NO_PARTICLE);
-    /* flaws of later ids move up to make room */
-    const uint32_t ids = sim->cfg.max_particles;
-    for (uint32_t k = before; k > base; k--)
+    return total;
+}
+
+/* room for the flaws of the set's particles: those of later ids move up; kept is 0 again */
+static void make_room(sph_sim *sim, const drawing *d, uint32_t *kept, uint32_t total)
+{
+    uint32_t *start = sim->flaw_start, *const end = start + d->first + d->n;
+    const uint32_t base = start[d->first];
+    for (uint32_t k = sim->flaws; k > base; k--)
         sim->flaw[k - 1 + total] = sim->flaw[k - 1];
-    for (uint32_t *s = end; s <= start + ids; s++)
+    for (uint32_t *s = end; s <= start + sim->cfg.max_particles; s++)
         *s += total;
-    for (uint32_t id = d.first, at = base; id < d.first + d.n; id++) {
+    for (uint32_t id = d->first, at = base; id < d->first + d->n; id++) {
         start[id] = at;
         at += kept[id];
         kept[id] = 0;
     }
-    d.state = f->seed;
+    sim->flaws += total;
+}
+
+/* the same draws again: thresholds in rising order */
+static void place_flaws(sph_sim *sim, drawing d, const sph_flaws *f, double volume, uint32_t *kept, uint64_t draws)
+{
     for (uint64_t i = 0; i < draws; i++) {
+        uint32_t p;
         const uint32_t id = next_flaw(&d, &p);
         if (kept[id] == SPH_MAX_FLAWS)
             continue;
         const float eps = (float)sph_pow((double)p / (f->k * volume), 1 / f->m);
-        float *list = sim->flaw + start[id];
+        float *list = sim->flaw + sim->flaw_start[id];
         uint32_t at = kept[id]++;
         for (; at > 0 && list[at - 1] > eps; at--)
             list[at] = list[at - 1];
         list[at] = eps;
     }
-    sim->flaws = before + total;
+}
+
+sph_status sph_add_flaws(sph_sim *sim, uint32_t set, const sph_flaws *f)
+{
+    sph_status st = sph_setup_begin_adding(sim, "sph_add_flaws");
+    drawing d;
+    if (st || (st = check_flaws(sim, set, f)) != SPH_OK || (st = find_ids(sim, set, &d)) != SPH_OK)
+        return st;
+    if (sim->flaw_start[d.first + d.n] != sim->flaw_start[d.first])
+        return sph_setup_bad(sim, "set", "a set without flaws", set);
+    const double n = d.n, wanted = n > 1 ? n * sph_log(n) : 1, volume = n * sim->set[set].mass / sim->set[set].rho0;
+    const uint64_t enough = (uint64_t)(wanted + 0.5) > 1 ? (uint64_t)(wanted + 0.5) : 1;
+    d.most = (uint32_t)enough;
+    d.state = f->seed;
+    uint32_t *const kept = sim->buf[(sim->cur + 1) % sim->buffers].id[0]; /* in the buffer that is not in use */
+    uint64_t draws;
+    const uint32_t total = count_flaws(d, enough, kept, &draws);
+    if (total > sim->cfg.max_flaws - sim->flaws)
+        return sph_error(sim, SPH_TOO_MANY_FLAWS, "max_flaws", "at least so many as the value says",
+                         (double)sim->flaws + total, SPH_NO_PARTICLE);
+    make_room(sim, &d, kept, total);
+    place_flaws(sim, d, f, volume, kept, draws);
     uint64_t h = sph_mix(sim->setup_hash, (uint64_t)set | (uint64_t)total << 32);
     sim->setup_hash = sph_mix_double(sph_mix_double(sph_mix(h, f->seed), f->k), f->m);
     return SPH_OK;

@@ -114,7 +114,8 @@ _Static_assert(sizeof(sph_scalars) == 8 * (4 + 2 * SPH_POWERS) + 4 * 5 + 4 + 3 *
 
 static const sph_record scene_record = {"scene", scene_fields, COUNT_OF(scene_fields), sizeof(sph_sim), true};
 static const sph_record set_record = {"sets", set_fields, COUNT_OF(set_fields), sizeof(sph_set), true};
-static const sph_record material_record = {"materials", material_fields, COUNT_OF(material_fields), sizeof(sph_material), true};
+static const sph_record material_record = {"materials", material_fields, COUNT_OF(material_fields),
+                                           sizeof(sph_material), true};
 static const sph_record group_record = {"groups", group_fields, COUNT_OF(group_fields), sizeof(sph_group_state), false};
 static const sph_record run_record = {"run", run_fields, COUNT_OF(run_fields), sizeof(sph_run), false};
 static const sph_record state_record = {"state", state_fields, COUNT_OF(state_fields), sizeof(sph_scalars), false};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* initial.c: initial fields: velocity and density by a function of position, density by hydrostatic pressure. Runs between
-   steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be right. */
+/* initial.c: initial fields: velocity and density by a function of position, density by hydrostatic pressure. Runs
+   between steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be right. */
 #include "setup.h"
 
 #if SPH_WITH_FIELDS
@@ -58,12 +58,12 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface)
         return sph_setup_bad(sim, "surface", "finite, with gravity along one axis", surface);
     const sph_set *s = &sim->set[set];
     double g = sim->cfg.gravity[axis];
-    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers]; /* as sph_apply_field */
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers];
     for (uint32_t i = 0; i < sim->now.count; i++)
         if (b->set[0][i] == set) {
             double x = sim->cfg.lo[axis] + (double)b->pos[axis][i] * sim->grid.quantum;
             double p = s->rho0 * g * (x - surface); /* g < 0: below the surface p > 0 */
-            double d = sph_density_of(s, p > 0 ? p : 0);
+            double d = sph_density_of(sim, s, p > 0 ? p : 0);
             if (!(d >= -1 && d < 99))
                 return sph_setup_bad(sim, "surface", "a depth at which density stays below 100 rho0", surface);
             wait->rho[0][i] = (sph_real)d;

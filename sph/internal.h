@@ -222,7 +222,8 @@ _Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 &
     (1 << SPH_NO_SOLID | SPH_WITH_SOLID << SPH_UPDATED | (SPH_WITH_SOLID && SPH_WITH_CORRECTED) << SPH_CORRECTED |   \
      SPH_HAS_TOTAL << SPH_TOTAL)
 #define SPH_YIELDS_IN (1 << SPH_NO_YIELD | SPH_HAS_YIELD << SPH_VON_MISES | SPH_HAS_YIELD << SPH_VON_MISES_GRAY)
-#define SPH_DAMAGES_IN (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
+#define SPH_DAMAGES_IN                                                                                      \
+    (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
 #define SPH_GRADIENTS_IN (1 << SPH_PLAIN | SPH_WITH_BONET_LOK << SPH_BONET_LOK | SPH_WITH_RENORMALISED << SPH_RENORMALISED)
 #define SPH_REPULSIONS_IN                                                                                   \
     (1 << SPH_NO_ARTIFICIAL_STRESS | SPH_HAS_REPULSION << SPH_PRINCIPAL | SPH_HAS_REPULSION << SPH_COMPONENTS)
@@ -247,20 +248,27 @@ SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION &&
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
 SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }
-SPH_INLINE bool sph_repels(const sph_config *c) { return SPH_HAS_REPULSION && c->artificial_stress != SPH_NO_ARTIFICIAL_STRESS; }
+SPH_INLINE bool sph_repels(const sph_config *c)
+{
+    return SPH_HAS_REPULSION && c->artificial_stress != SPH_NO_ARTIFICIAL_STRESS;
+}
 SPH_INLINE bool sph_smooths_strain(const sph_config *c) { return SPH_HAS_HAT && c->xsph_strain && sph_has_solids(c); }
 
 /* whether a set is made of what moves by forces, not wall */
 #define SPH_BODIES (1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_SOLID)
 SPH_INLINE bool sph_is_solid(const sph_set *s) { return SPH_WITH_SOLID && s->role == SPH_ROLE_SOLID; }
-SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set *s) { return sim->material + (s - sim->set); }
+SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set *s)
+{
+    return sim->material + (s - sim->set);
+}
 SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */
 
 /* state.c: records a failure with the pass under way and tells the host's fault hook; returns s */
 #define sph_error SPH_NAME(error_)
-sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value, uint32_t particle);
+sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *allowed, double value,
+                     uint32_t particle);
 /* the stress after damage (xx, yy, zz, xy, xz, yz; Pa, tension positive) and D of a particle of a buffer, in double */
 #define sph_stress_of SPH_NAME(stress_of_)
 double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress);
@@ -312,7 +320,11 @@ SPH_INLINE double sph_pressure(const sph_sim *sim, const sph_set *s, double d)
 {
     return sph_eos_pressure(s->eos, (double)s->b_r, d, sim->cfg.pressure_floor && !sph_is_solid(s));
 }
-SPH_INLINE double sph_density_of(const sph_set *s, double p) { return sph_eos_excess(s->eos, (double)s->b_r, p); }
+SPH_INLINE double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
+{
+    (void)sim;
+    return sph_eos_excess(s->eos, (double)s->b_r, p);
+}
 
 SPH_INLINE bool sph_finite(double x) { return x - x == 0; }
 SPH_INLINE double sph_abs(double x) { return x < 0 ? -x : x; }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* layers.c: walls as rows or layers of particles; walls that are taken away, and motions given as a table. Runs between steps
-   only; what walls do in a step is in walls.c.
+/* layers.c: walls as rows or layers of particles; walls that are taken away, and motions given as a table. Runs
+   between steps only; what walls do in a step is in walls.c.
 
    Ghost layers stand on the continuation of the fluid's lattice: centres half a spacing behind the wall, then one
-   spacing apart, as many as the kernel's support needs (Gray 2001 section 2.4). Where two chosen faces of a tank meet, the
-   particles behind both get the diagonal normal (his figure 2.4). Boundary-force particles stand on the wall itself. */
+   spacing apart, as many as the kernel's support needs (Gray 2001 section 2.4). Where two chosen faces of a tank
+   meet, the particles behind both get the diagonal normal (his figure 2.4). Boundary-force particles stand on the
+   wall itself. */
 #include "setup.h"
 
 #if SPH_HAS_WALLS
@@ -112,14 +113,14 @@ static void bound_region(sph_sim *sim, sph_set *s)
 {
     for (int k = 0; k < SPH_DIM; k++) {
         double reach[3] = {s->thick * sph_abs(s->normal[k]), 0, 0};
-#if SPH_DIM == 2
-        reach[1] = s->half[0] * sph_abs(s->normal[1 - k]);
-#elif SPH_DIM == 3
-        int a = (k + 1) % 3, b = (k + 2) % 3;
-        double t2 = s->normal[a] * s->tangent[b] - s->normal[b] * s->tangent[a];
-        reach[1] = s->half[0] * sph_abs(s->tangent[k]);
-        reach[2] = s->half[1] * sph_abs(t2);
-#endif
+        if (SPH_DIM == 2)
+            reach[1] = s->half[0] * sph_abs(s->normal[1 - k]);
+        if (SPH_DIM == 3) {
+            int a = (k + 1) % SPH_DIM, b = (k + 2) % SPH_DIM;
+            double t2 = s->normal[a] * s->tangent[b] - s->normal[b] * s->tangent[a];
+            reach[1] = s->half[0] * sph_abs(s->tangent[k]);
+            reach[2] = s->half[1] * sph_abs(t2);
+        }
         double r = reach[0] + reach[1] + reach[2];
         s->low[k] = bounded_quanta(sim, k, s->origin[k] - r) - 1;
         s->high[k] = bounded_quanta(sim, k, s->origin[k] + r) + 1;
@@ -160,12 +161,10 @@ typedef struct box_wall {
 static sph_status side_set(sph_sim *sim, box_wall *b, const int *side, uint32_t *set)
 {
     uint32_t code = 0;
-    int many = 0, first = -1;
+    int many = 0;
     for (int k = 0; k < SPH_DIM; k++) {
         code = code * 3 + (uint32_t)(side[k] + 1);
         many += side[k] != 0;
-        if (side[k] && first < 0)
-            first = k;
     }
     *set = b->set_of[code];
     if (*set < SPH_MAX_SETS)
@@ -189,18 +188,14 @@ static sph_status side_set(sph_sim *sim, box_wall *b, const int *side, uint32_t 
     }
     if (!b->inside && s->thick > 0.5 * shortest)
         s->thick = 0.5 * shortest;
-#if SPH_DIM == 3
     /* half[0] belongs to the first axis in the plane; an edge's tangent is the edge */
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; SPH_DIM == 3 && k < SPH_DIM; k++)
         if (!side[k]) {
             s->tangent[k] = 1;
             break;
         }
     if (many == 3)
         s->tangent[0] = 1;
-#else
-    (void)first;
-#endif
     bound_region(sim, s);
     sph_setup_finish_set(sim, s);
     return SPH_OK;
@@ -292,7 +287,8 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
         uint32_t n = sph_setup_intervals(hi[k] - lo[k], sim->cfg.spacing);
         if (n == 0 || n > 100000000u)
             return sph_setup_bad(sim, "hi", "at most 10^8 spacings from lo", hi[k]);
-        *a = (axis_lattice){lo[k] - sim->cfg.lo[k], hi[k] - sim->cfg.lo[k], sim->cfg.spacing, (hi[k] - lo[k]) / n, (int32_t)n};
+        *a = (axis_lattice){lo[k] - sim->cfg.lo[k], hi[k] - sim->cfg.lo[k], sim->cfg.spacing, (hi[k] - lo[k]) / n,
+                            (int32_t)n};
         from[k] = layers && inside ? -b.layers : 0;
         to[k] = a->n + (layers ? inside ? b.layers : 0 : 1);
     }

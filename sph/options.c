@@ -49,12 +49,12 @@ static uint32_t components(const option *o)
     return o->kind == SPH_OPTION_VECTOR ? SPH_DIM : o->kind == SPH_OPTION_FACES ? 2 * SPH_DIM : 1;
 }
 
-/* component k of an option as a number */
-static double value_of(const sph_config *c, const option *o, uint32_t k)
+/* component k of an option: a whole number, or the bits of a double */
+static uint64_t bits_of(const sph_config *c, const option *o, uint32_t k)
 {
     const unsigned char *p = (const unsigned char *)c + o->at;
     uint32_t u;
-    double d;
+    uint64_t d;
     if (o->kind == SPH_OPTION_BOOL) /* a host may have put anything there */
         return *p != 0;
     if (o->kind == SPH_OPTION_WHOLE || is_choice(o)) {
@@ -62,6 +62,17 @@ static double value_of(const sph_config *c, const option *o, uint32_t k)
         return u;
     }
     memcpy(&d, p + k * sizeof d, sizeof d);
+    return d;
+}
+
+/* as a number */
+static double value_of(const sph_config *c, const option *o, uint32_t k)
+{
+    const uint64_t u = bits_of(c, o, k);
+    double d;
+    if (o->kind == SPH_OPTION_BOOL || o->kind == SPH_OPTION_WHOLE || is_choice(o))
+        return (uint32_t)u;
+    memcpy(&d, &u, sizeof d);
     return d;
 }
 
@@ -108,12 +119,8 @@ static uint64_t mix_kinds(uint64_t h, const sph_config *c, uint32_t kinds, uint3
         const option *o = &options[i];
         if (o->change != SPH_OPTION_FIXED || !(kinds >> o->kind & 1))
             continue;
-        if (o->kind == SPH_OPTION_FACES)
-            h = sph_mix(h, (uint64_t)value_of(c, o, 2 * axis) | (uint64_t)value_of(c, o, 2 * axis + 1) << 8);
-        else if (kinds & (REALS | AXES))
-            h = sph_mix_double(h, value_of(c, o, axis));
-        else
-            h = sph_mix(h, (uint64_t)value_of(c, o, 0));
+        const bool faces = o->kind == SPH_OPTION_FACES;
+        h = sph_mix(h, faces ? bits_of(c, o, 2 * axis) | bits_of(c, o, 2 * axis + 1) << 8 : bits_of(c, o, axis));
     }
     return h;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* reading.h: what reading.c, totals.c and probes.c share. They add no array; sums run in index order in double precision,
-   so they are the same on every machine. */
+/* reading.h: what reading.c, totals.c and probes.c share. They add no array; sums run in index order in double
+   precision, so they are the same on every machine. */
 #ifndef SPH_READING_H
 #define SPH_READING_H
 

@@ -17,7 +17,10 @@ static uint32_t record_comps(const sph_record *r)
     return n;
 }
 
-static uint32_t member_code(uint32_t member) { return member <= M_REAL ? SPH_F64 : member == M_POS ? SPH_I64 : SPH_U64; }
+static uint32_t member_code(uint32_t member)
+{
+    return member <= M_REAL ? SPH_F64 : member == M_POS ? SPH_I64 : SPH_U64;
+}
 
 static size_t member_bytes(uint32_t member)
 {
@@ -86,7 +89,8 @@ static bool move_fields(sph_stream *s, const sph_record *r)
         if (!sph_move_payload(s, DUMP_FIELD))
             return false;
         if (s->source && !sph_same_bytes(s->piece, d, DUMP_FIELD))
-            sph_stream_refuse_later(s, SPH_DUMP_CORRUPT, r->fields[f].name, "this field in this place of its record", f);
+            sph_stream_refuse_later(s, SPH_DUMP_CORRUPT, r->fields[f].name, "this field in this place of its record",
+                                    f);
     }
     return true;
 }
@@ -106,7 +110,8 @@ static bool move_row(sph_stream *s, const sph_record *r, const unsigned char *fr
                 continue;
             const uint64_t u = sph_get_number(s->piece, 8);
             if (r->same && u != own)
-                sph_stream_refuse_later(s, SPH_DUMP_MISMATCH, e->name, "as in the configuration and set-up of this simulation", 0);
+                sph_stream_refuse_later(s, SPH_DUMP_MISMATCH, e->name,
+                                        "as in the configuration and set-up of this simulation", 0);
             if (!r->same && !store_member(e->member, u, to + at))
                 sph_stream_refuse_later(s, SPH_DUMP_CORRUPT, e->name, "finite and within its type's range", 0);
         }

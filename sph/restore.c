@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* restore.c: sph_restore, which reads what sph_dump wrote (dump.h) into the spare buffer, looks at every value, and only
-   then makes it current. */
+/* restore.c: sph_restore, which reads what sph_dump wrote (dump.h) into the spare buffer, looks at every value, and
+   only then makes it current. */
 #include "dump.h"
 #include "factors.h"
 #include "scratch.h"

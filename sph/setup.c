@@ -40,7 +40,8 @@ void sph_setup_finish_set(sph_sim *sim, sph_set *s)
     s->b_r = (sph_real)scale;
     uint64_t h = sim->setup_hash;
     h = sph_mix(h, (uint64_t)s->role | (uint64_t)s->kind << 8 | (uint64_t)s->group << 16 |
-                       (uint64_t)s->eos << 24 | (uint64_t)s->compressible << 32 | (uint64_t)s->no_slip << 33 | (uint64_t)s->corner << 34);
+                       (uint64_t)s->eos << 24 | (uint64_t)s->compressible << 32 | (uint64_t)s->no_slip << 33 |
+                       (uint64_t)s->corner << 34);
     const double v[] = {s->mass, s->rho0, s->c0, s->strength, s->thick, s->half[0], s->half[1]};
     for (size_t i = 0; i < sizeof v / sizeof *v; i++)
         h = sph_mix_double(h, v[i]);
@@ -184,7 +185,8 @@ sph_status sph_setup_fill(sph_sim *sim, const char *call, uint32_t set, const do
     sph_status st = sph_setup_begin_adding(sim, call);
     if (st || (st = sph_setup_check_body(sim, set)) != SPH_OK)
         return st;
-    if ((v && (st = sph_setup_check_vector(sim, "velocity", v)) != SPH_OK) || (st = sph_setup_check_vector(sim, "lo", lo)) != SPH_OK ||
+    if ((v && (st = sph_setup_check_vector(sim, "velocity", v)) != SPH_OK) ||
+        (st = sph_setup_check_vector(sim, "lo", lo)) != SPH_OK ||
         (st = sph_setup_check_vector(sim, "hi", hi)) != SPH_OK)
         return st;
     double dx = sim->cfg.spacing;

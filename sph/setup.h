@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* setup.h: what the files of set-up share (setup.c): adding sets, groups and particles to a simulation that is not in the
-   middle of a step. */
+/* setup.h: what the files of set-up share (setup.c): adding sets, groups and particles to a simulation that is not in
+   the middle of a step. */
 #ifndef SPH_SETUP_H
 #define SPH_SETUP_H
 
@@ -51,7 +51,8 @@ typedef struct sph_rows {
     double offset[2];
 } sph_rows;
 typedef bool (*sph_inside)(const void *shape, const double *x);
-/* appends the lattice points of a box for which inside(shape, x) holds; rows, v and inside may be null; all or nothing */
+/* appends the lattice points of a box for which inside(shape, x) holds; rows, v and inside may be null; all or
+   nothing */
 #define sph_setup_fill SPH_NAME(setup_fill_)
 sph_status sph_setup_fill(sph_sim *sim, const char *call, uint32_t set, const double *lo, const double *hi,
                           const sph_rows *rows, const double *v, sph_inside inside, const void *shape);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* shapes.c: rings, polygons, and boxes or ellipses with elliptical holes, filled with particles on square lattices or on the
-   face-centred ones of Gray 2001 section 5.6.5. Runs between steps only. Every point of the lattice that encloses a shape
-   is looked at once: the cost is lattice points times holes, or times corners. */
+/* shapes.c: rings, polygons, and boxes or ellipses with elliptical holes, filled with particles on square lattices or
+   on the face-centred ones of Gray 2001 section 5.6.5. Runs between steps only. Every point of the lattice that
+   encloses a shape is looked at once: the cost is lattice points times holes, or times corners. */
 #include "setup.h"
 
 #if SPH_WITH_SHAPES
 
 #define MAX_HOLES 4096u
-#define RIM 1e-9 /* so near to a rim (of its radius) or face (of a spacing) counts as on it, whatever way it was rounded */
+/* so near to a rim (of its radius) or face (of a spacing) counts as on it, whatever way it was rounded */
+#define RIM 1e-9
 
 static bool in_ellipse(const sph_ellipse *e, const double *x)
 {

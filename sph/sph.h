@@ -40,12 +40,12 @@ typedef float sph_real;
 
 /* ---- 2 status --------------------------------------------------------------------------------------
    Every function that can fail returns one of these; sph_last() tells more about the latest failure. A call that fails
-   changes nothing but that report (sph_step may have made the first forces, as sph_ready does), and writes to none of its
-   results.
-   Null pointers: a function that returns a status refuses them with SPH_BAD_ARGUMENT where the manual does not allow them,
-   the simulation included (a null configuration is SPH_BAD_CONFIG, a null arena SPH_ARENA_TOO_SMALL); one that returns
-   nothing does nothing; sph_arena_bytes, sph_count, sph_time and sph_hash give 0, sph_last a constant report. Pointers that
-   are not null must be good, and a simulation must come from sph_init: that cannot be seen from inside. */
+   changes nothing but that report (sph_step may have made the first forces, as sph_ready does), and writes to none of
+   its results.
+   Null pointers: a function that returns a status refuses them with SPH_BAD_ARGUMENT where the manual does not allow
+   them, the simulation included (a null configuration is SPH_BAD_CONFIG, a null arena SPH_ARENA_TOO_SMALL); one that
+   returns nothing does nothing; sph_arena_bytes, sph_count, sph_time and sph_hash give 0, sph_last a constant report.
+   Pointers that are not null must be good, and a simulation must come from sph_init: it cannot be seen from inside. */
 #define SPH_STATUS_LIST(X)                                                                             \
     X(OK, "ok")                                                                                        \
     X(NOT_DONE, "the slice's budget is spent; call sph_step_slice again to finish the step")           \
@@ -105,9 +105,9 @@ enum { SPH_CUBIC, SPH_QUARTIC, SPH_QUINTIC, SPH_GAUSSIAN, SPH_WENDLAND_C2, SPH_W
 /* Schemes: one momentum equation and the continuity equation that conserves energy with it.
    STANDARD  dv = -sum m_j (p_i/rho_i^2 + p_j/rho_j^2 + Pi) grad W,  drho = sum m_j v_ij.grad W
              (Gray 2001 eqs 2.17, 2.21)
-   WEAK      dv = -sum m_j (p_i + p_j + Pi)/(rho_i rho_j) grad W,    drho = rho_i sum (m_j/rho_j) v_ij.grad W
+   WEAK      dv = -sum m_j ((p_i + p_j)/(rho_i rho_j) + Pi) grad W,  drho = rho_i sum (m_j/rho_j) v_ij.grad W
              (Wickramarachchi 2009 eq 3.80; the continuity form follows from it by energy conservation)
-   DIRECT    dv = -sum m_j (p_j - p_i + Pi)/(rho_i rho_j) grad W,    drho as WEAK
+   DIRECT    dv = -sum m_j ((p_j - p_i)/(rho_i rho_j) + Pi) grad W,  drho as WEAK
              (Wickramarachchi 2009 eqs 3.21, 3.22: conserves neither momentum nor energy; kept to show it)
    STANDARD_WICK, WEAK_WICK: the continuity forms printed as 3.50 and 3.79, which weight a pair by pressures
              divided by p_i; where |p_i| is below 1e-6 rho0 c0^2 the weight falls back to 1. */
@@ -124,37 +124,39 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
 /* Forms of a solid's equations; NO_SOLID: the scene has fluids only. With T = -sigma/rho^2, K_ij the vector between two
    particles, g = (dW/dr)/r at |K|, and v_ij = v_i - v_j:
    UPDATED    dv = sum m_j (-T_i - T_j) . K g,  velocity gradient L = -(1/rho_i) sum m_j v_ij (x) K g, K = x_ij
-              (Gray 2001 eqs 5.9, 5.21). Weak scheme: -sigma/(rho_i rho_j) and m_j/rho_j. Gray prints (5.6, 5.10) the weak rates
-              beside the standard momentum; the pairs here conserve energy.
-   CORRECTED  L = (-sum m_j v_ij (x) K g) M^-1, M = -sum m_j x_ij (x) K g: exact for linear fields, and the force that does
-              the same work, T = -sigma M^-T/rho (Bonet & Lok 1999), so momentum and angular momentum stay. Costs a sweep.
-              Where M is nearly singular (lone particles, lines of them) the plain form is taken.
-   TOTAL      the same with K the vector in the reference position, for pairs of one body of which neither is fully damaged;
-              fixed neighbours, no tensile instability. A particle may go half a domain's length from where it began (else
-              MOVED_TOO_FAR). Contact of two bodies: no stress is shared; they push each other along x_ij, nearer than dx, as
-              by a pressure rho0 c0^2 (W/W(dx) - 1) of the configuration in both: no adhesion, no friction but that of uneven
-              surfaces (and viscosity where that is asked for). Other pairs (rubble, fluid) take K = x_ij. */
+              (Gray 2001 eqs 5.9, 5.21). Weak scheme: -sigma/(rho_i rho_j) and m_j/rho_j. Gray prints (5.6, 5.10) the
+              weak rates beside the standard momentum; the pairs here conserve energy.
+   CORRECTED  L = (-sum m_j v_ij (x) K g) M^-1, M = -sum m_j x_ij (x) K g: exact for linear fields, and the force that
+              does the same work, T = -sigma M^-T/rho (Bonet & Lok 1999), so momentum and angular momentum stay. Costs
+              a sweep. Where M is nearly singular (lone particles, lines of them) the plain form is taken.
+   TOTAL      the same with K the vector in the reference position, for pairs of one body of which neither is fully
+              damaged; fixed neighbours, no tensile instability. A particle may go half a domain's length from where
+              it began (else MOVED_TOO_FAR). Contact of two bodies: no stress is shared; they push each other along
+              x_ij, nearer than dx, as by a pressure rho0 c0^2 (W/W(dx) - 1) of the configuration in both: no
+              adhesion, no friction but that of uneven surfaces (and viscosity where that is asked for). Other pairs
+              (rubble, fluid) take K = x_ij. */
 enum { SPH_NO_SOLID, SPH_UPDATED, SPH_CORRECTED, SPH_TOTAL, SPH_SOLIDS };
 
-/* Yield. VON_MISES: where sqrt(3 J2) exceeds Y = yield + hardening * plastic strain, S is returned along the radius. With
-   hardening the plastic strain of a return is (sqrt(3 J2) - Y)/(3 mu + hardening). VON_MISES_GRAY: S times
-   Y^2/(3 J2), with J2 without its zz part, as Gray 2001 eqs 5.14 and 5.15 print it; it lands inside the yield surface. */
+/* Yield. VON_MISES: where sqrt(3 J2) exceeds Y = yield + hardening * plastic strain, S is returned along the radius.
+   With hardening the plastic strain of a return is (sqrt(3 J2) - Y)/(3 mu + hardening). VON_MISES_GRAY: S times
+   Y^2/(3 J2), with J2 without its zz part, as Gray 2001 eqs 5.14 and 5.15 print it; it lands inside the yield
+   surface. */
 enum { SPH_NO_YIELD, SPH_VON_MISES, SPH_VON_MISES_GRAY, SPH_YIELDS };
 
-/* Damage (2-D, 3-D). BENZ_ASPHAUG: d(D^(1/DIM))/dt = active crack_speed/flaw_radius, D at most (active/flaws), where a flaw is
-   active while the strain exceeds its threshold; the strain is the largest principal stress over (1 - D) E (Benz & Asphaug
-   1995; Gray 2001 eqs 5.33-5.42). BENZ_ASPHAUG_GRAY: over 2 mu (1 - D^2), as his eq 5.35 prints it. */
+/* Damage (2-D, 3-D). BENZ_ASPHAUG: d(D^(1/DIM))/dt = active crack_speed/flaw_radius, D at most (active/flaws), where
+   a flaw is active while the strain exceeds its threshold; the strain is the largest principal stress over (1 - D) E
+   (Benz & Asphaug 1995; Gray 2001 eqs 5.33-5.42). BENZ_ASPHAUG_GRAY: over 2 mu (1 - D^2), as his eq 5.35 prints it. */
 enum { SPH_NO_DAMAGE, SPH_BENZ_ASPHAUG, SPH_BENZ_ASPHAUG_GRAY, SPH_DAMAGES };
 
-/* Artificial stress against clumping in tension: T_i + T_j gains (R_i + R_j) (W/W(dx))^n, R = epsilon sigma/rho^2 on tension:
-   PRINCIPAL on each principal stress (Gray 2001 eqs 5.22-5.28), COMPONENTS on each component of the stress (Monaghan
-   2000). The sign is that of 5.26, which repels. */
+/* Artificial stress against clumping in tension: T_i + T_j gains (R_i + R_j) (W/W(dx))^n, R = epsilon sigma/rho^2 on
+   tension: PRINCIPAL on each principal stress (Gray 2001 eqs 5.22-5.28), COMPONENTS on each component of the stress
+   (Monaghan 2000). The sign is that of 5.26, which repels. */
 enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_STRESSES };
 
 /* Viscosities. ARTIFICIAL: Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu, mu = v.r/(r^2 + 0.01 h^2), on
    approaching and receding pairs (Gray 2.18). ARTIFICIAL_APPROACHING: on approaching pairs only
-   (Wickramarachchi 3.18). MORRIS: sum m_j 2 mu/(rho_i rho_j) (r.grad W)/(r^2 + 0.01 h^2) v_ij with the
-   kinematic viscosity nu (Morris, Fox & Zhu 1997). */
+   (Wickramarachchi 3.18). MORRIS: sum m_j (4 nu/(rho_i + rho_j)) (r.grad W)/(r^2 + 0.01 h^2) v_ij with the
+   kinematic viscosity nu (Morris, Fox & Zhu 1997, with the mean of both densities). */
 enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
 
 /* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W. MOLTENI: psi = (rho_j - rho_i)
@@ -170,8 +172,9 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:
-   velocity Verlet; density drifts with the half-step velocity, so a step takes two sweeps (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1,
-   rates then forces (two sweeps), velocities half a step ahead. RUNGE_KUTTA: Wickramarachchi 3.85-3.87;
+   velocity Verlet; density drifts with the half-step velocity, so a step takes two sweeps (rates, forces). LEAP_FROG:
+   Powell 2012 algorithm 1.1, rates then forces (two sweeps), velocities half a step ahead. RUNGE_KUTTA:
+   Wickramarachchi 3.85-3.87;
    RUNGE_KUTTA_MOMENTUM: his 3.91-3.92 (algebraically the same midpoint rule, rounded differently). */
 enum {
     SPH_PREDICTOR_CORRECTOR,
@@ -220,8 +223,8 @@ typedef struct sph_port {
     void (*fault)(void *ctx, const sph_report *report);   /* told of every failure, before it is returned */
 } sph_port;
 
-/* Its options, with what they mean, units, defaults and bounds, are the list in options.h: sph_config has a member of the
-   name of each, uint32_t for whole numbers and choices, double (of SPH_DIM along the axes), bool, and
+/* Its options, with what they mean, units, defaults and bounds, are the list in options.h: sph_config has a member of
+   the name of each, uint32_t for whole numbers and choices, double (of SPH_DIM along the axes), bool, and
    uint32_t face[SPH_DIM][2]. */
 #include "options.h"
 
@@ -268,9 +271,10 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_YIELD 128u
 #define SPH_USE_DAMAGE 256u /* flaws: 4 bytes each, to be added */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
-#define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components of the deviatoric stress that are kept */
+#define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
-    ((((use)&SPH_USE_SOLID) ? 2u * SPH_STRESSES * SPH_REAL_ : 0u) + (((use)&SPH_USE_TOTAL) ? SPH_DIM * SPH_REAL_ : 0u) + \
+    ((((use)&SPH_USE_SOLID) ? 2u * SPH_STRESSES * SPH_REAL_ : 0u) +                                         \
+     (((use)&SPH_USE_TOTAL) ? SPH_DIM * SPH_REAL_ : 0u) +                                                   \
      (((use)&SPH_USE_YIELD) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? SPH_REAL_ : 0u))
 #define SPH_STATE_BYTES_ ((2u * SPH_DIM + SPH_DIM + 2u) * (SPH_DOUBLE ? 8u : 4u) + 4u + 1u)
 #define SPH_PARTICLE_BYTES(use)                                                                             \
@@ -282,8 +286,10 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
 #define SPH_SCRATCH_BYTES /* a thread */                                                                    \
-    (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) + (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM * 512u : 0u)) * (SPH_DOUBLE ? 2u : 1u))
-#define SPH_SOLID_SCRATCH_BYTES ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u)) /* with solids */
+    (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) +                                            \
+      (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM * 512u : 0u)) * (SPH_DOUBLE ? 2u : 1u))
+#define SPH_SOLID_SCRATCH_BYTES /* with solids besides */                                                   \
+    ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
@@ -335,14 +341,14 @@ typedef struct sph_fluid {
 #define sph_add_fluid SPH_NAME(add_fluid)
 sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *fluid, uint32_t *set); /* fluid null: all defaults */
 
-/* Displacement (m) and velocity (m/s) at time t (s) of something that moves as it is told: a wall, a held set. Must depend on
-   its arguments only. Finite, within two domain lengths, and less than one from step to step; otherwise the step fails
-   (NOT_FINITE, MOVED_TOO_FAR). */
+/* Displacement (m) and velocity (m/s) at time t (s) of something that moves as it is told: a wall, a held set. Must
+   depend on its arguments only. Finite, within two domain lengths, and less than one from step to step; otherwise the
+   step fails (NOT_FINITE, MOVED_TOO_FAR). */
 typedef void (*sph_motion)(void *ctx, double t, double *displacement, double *velocity);
 
 /* A motion given as a table, linear between rows; before the first and after the last row there is rest. Pass
-   sph_motion_table as the motion and a pointer to this as its ctx. Times must increase. Without rows, or with an axis that
-   there is not, there is rest. */
+   sph_motion_table as the motion and a pointer to this as its ctx. Times must increase. Without rows, or with an axis
+   that there is not, there is rest. */
 typedef struct sph_table {
     uint32_t rows, axis;
     const double *t, *x; /* s, m */
@@ -350,16 +356,18 @@ typedef struct sph_table {
 #define sph_motion_table SPH_NAME(motion_table)
 void sph_motion_table(void *ctx, double t, double *displacement, double *velocity);
 
-/* A motion from rest at time 0: displacement v t + a t^2/2 on each axis. Pass sph_motion_steady and a pointer to this. */
+/* A motion from rest at time 0: displacement v t + a t^2/2 on each axis. Pass sph_motion_steady and a pointer to
+   this. */
 typedef struct sph_steady {
     double v[SPH_DIM], a[SPH_DIM]; /* m/s, m/s^2 */
 } sph_steady;
 #define sph_motion_steady SPH_NAME(motion_steady)
 void sph_motion_steady(void *ctx, double t, double *displacement, double *velocity);
 
-/* A solid's material. p = c0^2 (rho - rho0) (Gray 2001 eq 5.11), so the bulk modulus is rho0 c0^2; the deviatoric stress follows
-   dS/dt = 2 mu (e - tr e/3) + W S - S W with the strain rate e and spin W of L (Jaumann; Gray 5.7-5.9 in plane strain, where
-   S_zz = -S_xx - S_yy). In 1-D the strain is uniaxial; for a thin bar give sound_speed = sqrt(E/rho0) and shear 0. */
+/* A solid's material. p = c0^2 (rho - rho0) (Gray 2001 eq 5.11), so the bulk modulus is rho0 c0^2; the deviatoric
+   stress follows dS/dt = 2 mu (e - tr e/3) + W S - S W with the strain rate e and spin W of L (Jaumann; Gray 5.7-5.9
+   in plane strain, where S_zz = -S_xx - S_yy). In 1-D the strain is uniaxial; for a thin bar give sound_speed =
+   sqrt(E/rho0) and shear 0. */
 typedef struct sph_solid {
     double mass, rho0, sound_speed; /* as in sph_fluid */
     double shear;                   /* mu (Pa), >= 0 */
@@ -367,7 +375,7 @@ typedef struct sph_solid {
     double crack_speed;             /* m/s, 0: 0.4 sound_speed */
     double flaw_radius;             /* m, 0: that of the disc (ball) of a particle's volume */
     uint32_t body;                  /* SPH_TOTAL: sets of the same number are one body; 0 .. 255 */
-    uint32_t held;                  /* bits 1 << axis: along these the set moves as `motion` says instead of by forces */
+    uint32_t held;                  /* bits 1 << axis: along these the set moves as `motion` says, not by forces */
     sph_motion motion;              /* null: at rest */
     void *motion_ctx;
 } sph_solid;
@@ -375,11 +383,11 @@ typedef struct sph_solid {
 sph_status sph_add_solid(sph_sim *sim, const sph_solid *solid, uint32_t *set, uint32_t *group); /* group: null, or for
    sph_remove_wall, which lets go of a held set */
 
-/* Gives the particles of a solid set flaws: each of round(N ln N) draws, and more until every particle has one, puts a flaw
-   of threshold (p/(k V))^(1/m), p evenly out of 1 .. N ln N, on an evenly chosen particle, N being the set's particles and V their
-   volume (Gray 2001 eqs 5.40, 5.41); a particle with 20 flaws takes no more. Draws come from splitmix64 (Steele, Lea & Flood
-   2014) started at seed: first p, then the particle; the same on every machine. Call it once for a set, after its particles
-   were added and before the first step. A set without flaws is never damaged. */
+/* Gives the particles of a solid set flaws: each of round(N ln N) draws, and more until every particle has one, puts
+   a flaw of threshold (p/(k V))^(1/m), p evenly out of 1 .. N ln N, on an evenly chosen particle, N being the set's
+   particles and V their volume (Gray 2001 eqs 5.40, 5.41); a particle with 20 flaws takes no more. Draws come from
+   splitmix64 (Steele, Lea & Flood 2014) started at seed: first p, then the particle; the same on every machine. Call
+   it once for a set, after its particles were added and before the first step. A set without flaws is never damaged. */
 #define SPH_MAX_FLAWS 20u /* of one particle */
 typedef struct sph_flaws {
     double k; /* 1/m^DIM */
@@ -410,22 +418,24 @@ sph_status sph_add_ring(sph_sim *sim, uint32_t set, const double *centre, double
 sph_status sph_add_polygon(sph_sim *sim, uint32_t set, const double (*corner)[2], uint32_t n, const double *v);
 #endif
 
-/* Lattices, each of one particle to dx^DIM. SQUARE: one in the middle of every cell of edge dx. SHIFTED_X: rows along x,
-   every second one shifted by dx/2 along x; SHIFTED_Y: columns along y, every second one shifted by dx/2 along y (face centred,
-   Gray 2001 section 5.6.5). In 3-D the rows are numbered along both other axes and shifted where the two numbers add up to
-   an odd one: every layer is as in 2-D, every second layer begins with the other row, and the cell of dx by 2 dx by 2 dx
-   has a particle at its corners and in the middle of its faces. SHIFTED_Z: the same along z, 3-D only. Neighbours are then
-   two at dx and four (3-D: eight) at 1.118 dx, on the square lattice four (six) at dx. In 1-D there is SQUARE only. */
+/* Lattices, each of one particle to dx^DIM. SQUARE: one in the middle of every cell of edge dx. SHIFTED_X: rows along
+   x, every second one shifted by dx/2 along x; SHIFTED_Y: columns along y, every second one shifted by dx/2 along y
+   (face centred, Gray 2001 section 5.6.5). In 3-D the rows are numbered along both other axes and shifted where the
+   two numbers add up to an odd one: every layer is as in 2-D, every second layer begins with the other row, and the
+   cell of dx by 2 dx by 2 dx has a particle at its corners and in the middle of its faces. SHIFTED_Z: the same along
+   z, 3-D only. Neighbours are then two at dx and four (3-D: eight) at 1.118 dx, on the square lattice four (six) at
+   dx. In 1-D there is SQUARE only. */
 enum { SPH_LATTICE_SQUARE, SPH_LATTICE_SHIFTED_X, SPH_LATTICE_SHIFTED_Y, SPH_LATTICE_SHIFTED_Z, SPH_LATTICES };
 
-/* The points with sum over the axes of ((x - centre)/radius)^2 < 1: an ellipse, ellipsoid, in 1-D an interval. Radii are
-   > 0; an infinite one makes a cylinder along that axis. */
+/* The points with sum over the axes of ((x - centre)/radius)^2 < 1: an ellipse, ellipsoid, in 1-D an interval. Radii
+   are > 0; an infinite one makes a cylinder along that axis. */
 typedef struct sph_ellipse {
     double centre[SPH_DIM], radius[SPH_DIM]; /* m */
 } sph_ellipse;
 
-/* A particle stands in a shape if its centre does: in the box lo .. hi, in the outline (not on its rim), and in none of the
-   holes (on their rims it stands). To 1e-9 of a radius or spacing counts as on it, so that no rounding spoils a symmetry.
+/* A particle stands in a shape if its centre does: in the box lo .. hi, in the outline (not on its rim), and in none
+   of the holes (on their rims it stands). To 1e-9 of a radius or spacing counts as on it, so that no rounding spoils
+   a symmetry.
      ring     .outline = &outer, .hole = &inner, .holes = 1     disc     .outline = &rim
      plate    .lo, .hi                                          holes    .hole = ellipses, .holes = how many
      3-D      a cylinder or a hole right through has an infinite radius along its axis; lo, hi give its ends
@@ -444,17 +454,20 @@ typedef struct sph_shape {
     uint32_t lattice;                /* SPH_LATTICE_... */
     double velocity[SPH_DIM];        /* m/s */
 } sph_shape;
-/* Fills a shape with particles of a set. All or nothing, near the domain as above; a shape that holds none is refused. */
+/* Fills a shape with particles of a set. All or nothing, near the domain as above; a shape that holds none is
+   refused. */
 #define sph_add_shape SPH_NAME(add_shape)
 sph_status sph_add_shape(sph_sim *sim, uint32_t set, const sph_shape *shape);
 
-/* Sets velocity and density of a particle between steps by a function of its position: an initial field. All or nothing. */
+/* Sets velocity and density of a particle between steps by a function of its position: an initial field. All or
+   nothing. */
 typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho);
 #define sph_apply_field SPH_NAME(apply_field)
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx);
 
 /* Gives every particle of the set the density that hydrostatic pressure asks for below `surface` (m, along the
-   axis of gravity, which must be an axis), so that a tank starts in balance. Refused where a density would pass 100 rho0. */
+   axis of gravity, which must be an axis), so that a tank starts in balance. Refused where a density would pass 100
+   rho0. */
 #define sph_apply_hydrostatic SPH_NAME(apply_hydrostatic)
 sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface);
 
@@ -470,7 +483,14 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface);
                      continuity ("compressible") or held at rho0 ("incompressible")
    ADAMI             the same layers with pressure extrapolated from the fluid, and for no slip the velocity too
                      (Adami, Hu & Adams 2012) */
-enum { SPH_WALL_LENNARD_JONES, SPH_WALL_KERNEL_FORCE, SPH_WALL_MONAGHAN_KOS, SPH_WALL_GHOST, SPH_WALL_ADAMI, SPH_WALLS };
+enum {
+    SPH_WALL_LENNARD_JONES,
+    SPH_WALL_KERNEL_FORCE,
+    SPH_WALL_MONAGHAN_KOS,
+    SPH_WALL_GHOST,
+    SPH_WALL_ADAMI,
+    SPH_WALLS
+};
 
 typedef struct sph_wall {
     uint32_t kind;       /* SPH_WALL_... */
@@ -526,17 +546,17 @@ sph_status sph_step(sph_sim *sim);
 #define sph_step_to SPH_NAME(step_to)
 sph_status sph_step_to(sph_sim *sim, double t_end);
 
-/* Part of a step: does chunks until about `budget` work units are spent (one unit: one candidate pair, one particle in a local
-   pass or looked at by a sort, one cell), then returns SPH_NOT_DONE; SPH_OK when the step is complete. Until then the state
-   that can be read is that of the step's beginning. With n particles, at most c in a cell and at most s in a slab (a layer of
-   cells along the last axis) of b cells:
-     a slice    at most budget + threads * max(3^DIM c^2 + 1, (k + 2) s + k b, 256) units, k = max(3, slabs/64 rounded up): the
-                last chunks, one a thread, may pass the budget, and a chunk is a cell of a sweep, k slabs of a sort, or 256
-                particles. The first sort of all has one chunk of n + cells units: sph_ready does it beforehand. So has the
-                first after a step that failed or was given up, and after a restore.
-     a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2 for all
-                integrators but the predictor-corrector), as many again with Adami walls, with SPH_CORRECTED or SPH_TOTAL,
-                and with xsph_strain; 1 each for the Shepard filter and summation (2 with Runge-Kutta).
+/* Part of a step: does chunks until about `budget` work units are spent (one unit: one candidate pair, one particle
+   in a local pass or looked at by a sort, one cell), then returns SPH_NOT_DONE; SPH_OK when the step is complete.
+   Until then the state that can be read is that of the step's beginning. With n particles, at most c in a cell and at
+   most s in a slab (a layer of cells along the last axis) of b cells:
+     a slice    at most budget + threads * max(3^DIM c^2 + 1, (k + 2) s + k b, 256) units, k = max(3, slabs/64 rounded
+                up): the last chunks, one a thread, may pass the budget, and a chunk is a cell of a sweep, k slabs of
+                a sort, or 256 particles. The first sort of all has one chunk of n + cells units: sph_ready does it
+                beforehand. So has the first after a step that failed or was given up, and after a restore.
+     a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2
+                for all integrators but the predictor-corrector), as many again with Adami walls, with SPH_CORRECTED
+                or SPH_TOTAL, and with xsph_strain; 1 each for the Shepard filter and summation (2 with Runge-Kutta).
    Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
@@ -545,7 +565,8 @@ sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
 #define SPH_AROUND_(c) ((SPH_DIM == 1 ? 3u : SPH_DIM == 2 ? 9u : 27u) * (uint64_t)(c))
 #define SPH_RANGE_(slabs) (uint64_t) SPH_MAX_(3u, ((slabs) + 63u) / 64u)
 #define SPH_SLICE_EXTRA(threads, slabs, s, b, c)                                                            \
-    ((threads) * SPH_MAX_(SPH_MAX_(SPH_AROUND_(c) * (c) + 1u, (SPH_RANGE_(slabs) + 2u) * (s) + SPH_RANGE_(slabs) * (b)), 256u))
+    ((threads) * SPH_MAX_(SPH_MAX_(SPH_AROUND_(c) * (c) + 1u,                                               \
+                                   (SPH_RANGE_(slabs) + 2u) * (s) + SPH_RANGE_(slabs) * (b)), 256u))
 #define SPH_STEP_WORK(sweeps, n, c, cells)                                                                  \
     ((sweeps) * (SPH_AROUND_(c) * (n) + (cells) + 32u) + 16u * (uint64_t)(n) + 4u * (uint64_t)(cells))
 /* Gives up a step that was begun in slices. */
@@ -576,8 +597,8 @@ typedef struct sph_particle {
     uint32_t id, set, role;
     double x[SPH_DIM], v[SPH_DIM], a[SPH_DIM]; /* m, m/s, m/s^2 (0 before the first forces) */
     double rho, p, mass;                      /* kg/m^3, Pa, kg */
-    double stress[6];                         /* Pa: xx, yy, zz, xy, xz, yz, tension positive, after damage; a fluid's is -p I;
-                                                 0 where SPH_WITH_SOLID is off */
+    double stress[6];                         /* Pa: xx, yy, zz, xy, xz, yz, tension positive, after damage; a fluid's
+                                                 is -p I; 0 where SPH_WITH_SOLID is off */
     double plastic, damage;                   /* equivalent plastic strain; D, 0 .. 1 */
 } sph_particle;
 #define sph_count SPH_NAME(count)
@@ -608,8 +629,9 @@ typedef struct sph_totals {
 #define sph_get_totals SPH_NAME(get_totals)
 void sph_get_totals(const sph_sim *sim, sph_totals *out);
 
-/* Values at a point x (m): Shepard-normalised sums over the fluid. `cover` = sum (m/rho) W is 1 inside the fluid
-   and falls to 0 outside; where it is below 1e-6 the values are 0. */
+/* Values at a point x (m): Shepard-normalised sums over fluid and solid; walls and images behind faces are not in them.
+   `cover` = sum (m/rho) W is about 1 inside, 1/2 on a surface, on a wall or on a face of the domain, and falls to 0
+   outside; where it is below 1e-6 the values are 0. */
 typedef struct sph_probe_value {
     double cover, rho, p, v[SPH_DIM];
 } sph_probe_value;
@@ -618,16 +640,16 @@ sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out);
 /* n points evenly from a to b, both included. */
 #define sph_probe_line SPH_NAME(probe_line)
 sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, uint32_t n, sph_probe_value *out);
-/* Height of the water along `axis` through x: the highest place where cover passes 1/2; the domain's low end if
-   there is no water. x[axis] does not matter, but must be finite like the others. */
+/* Height of fluid and solid along `axis` through x: the highest place where cover passes 1/2; the domain's low end if
+   there is none. x[axis] does not matter, but must be finite like the others. */
 #define sph_gauge SPH_NAME(gauge)
 sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height);
-/* Largest and smallest coordinate of the fluid along an axis, by particle centres. */
+/* Smallest and largest coordinate of fluid and solid along an axis, by particle centres. */
 #define sph_extent SPH_NAME(extent)
 void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high);
 
-/* Value and radial derivative of a smoothing kernel in this dimension: W (1/m^DIM) and dW/dr at distance r for smoothing
-   length h; and its support in units of h. For tests, probes and tools. */
+/* Value and radial derivative of a smoothing kernel in this dimension: W (1/m^DIM) and dW/dr at distance r for
+   smoothing length h; and its support in units of h. For tests, probes and tools. */
 #define sph_kernel_value SPH_NAME(kernel_value)
 sph_status sph_kernel_value(uint32_t kernel, double r, double h, double *w, double *dw);
 #define sph_kernel_support SPH_NAME(kernel_support)
@@ -639,7 +661,7 @@ double sph_kernel_support(uint32_t kernel);
 uint64_t sph_hash(const sph_sim *sim);
 
 /* ---- 11 dump and restore ---------------------------------------------------------------------------
-   Little-endian on every machine, versioned, self-describing, checksummed by section (layout: dump.c). The sink and
+   Little-endian on every machine, versioned, self-describing, checksummed by section (layout: dump.h). The sink and
    source move pieces of at most SPH_PIECE bytes and return false to fail. A full dump (fields SPH_DUMP_FULL) restores a
    run that goes on with the same bits; a reduced one carries the chosen fields for pictures. Between the slices of a
    step a dump holds the state of the step's beginning. Each function uses less than 1 KiB of stack.
@@ -660,8 +682,8 @@ sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ct
 /* Restores a full dump into a simulation that was initialised with the same configuration and then given the same
    sets and walls, in the same order; it may have run since. Gravity, damping and the fixed dt become those of the
    dump (sph_reconfigure may change them again); hooks and threads stay those of the simulation. Reads the stream once,
-   into the spare half of the arena, and commits only when every checksum and value was seen to be right; on any failure the
-   simulation is as it was. A source that returns false is taken as the stream's end.
+   into the spare half of the arena, and commits only when every checksum and value was seen to be right; on any
+   failure the simulation is as it was. A source that returns false is taken as the stream's end.
    Fails: SPH_BAD_STATE (a step is under way), SPH_DUMP_TRUNCATED, SPH_DUMP_CORRUPT, SPH_DUMP_FOREIGN, SPH_DUMP_NEWER,
    SPH_DUMP_MISMATCH (a reduced dump, or one of another configuration, set-up or capacity). */
 #define sph_restore SPH_NAME(restore)

@@ -7,8 +7,9 @@
 #define KNOB(name, needs) _Static_assert(SPH_WITH_##name == 0 || SPH_WITH_##name == 1, "a knob is 0 or 1: " #name);
 SPH_KNOBS(KNOB)
 #undef KNOB
-_Static_assert(SPH_HAS_HELD == SPH_IN_HELD && SPH_HAS_TOTAL == SPH_IN_TOTAL_LAGRANGIAN && SPH_HAS_YIELD == SPH_IN_YIELD &&
-                   SPH_HAS_DAMAGE == SPH_IN_DAMAGE && SPH_HAS_REPULSION == SPH_IN_ARTIFICIAL_STRESS &&
+_Static_assert(SPH_HAS_HELD == SPH_IN_HELD && SPH_HAS_TOTAL == SPH_IN_TOTAL_LAGRANGIAN &&
+                   SPH_HAS_YIELD == SPH_IN_YIELD && SPH_HAS_DAMAGE == SPH_IN_DAMAGE &&
+                   SPH_HAS_REPULSION == SPH_IN_ARTIFICIAL_STRESS &&
                    SPH_HAS_HAT == SPH_IN_XSPH_STRAIN,
                "modules.h: SPH_HAS_... and the needs of its list differ");
 

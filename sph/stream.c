@@ -71,7 +71,8 @@ static bool move_piece(sph_stream *s, uint32_t n)
     if (s->sink && !s->sink(s->ctx, s->piece, n))
         return sph_stream_refuse(s, SPH_SINK_FAILED, "sink", "", (double)s->bytes);
     if (s->source && !s->source(s->ctx, s->piece, n))
-        return sph_stream_refuse(s, SPH_DUMP_TRUNCATED, "bytes", "as many as the dump's preamble says", (double)s->bytes);
+        return sph_stream_refuse(s, SPH_DUMP_TRUNCATED, "bytes", "as many as the dump's preamble says",
+                                 (double)s->bytes);
     return true;
 }
 

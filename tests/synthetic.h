@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* synthetic.h: dumps of solids written by hand in the layout of sph/dump.c, for the tests of commands. */
+/* synthetic.h: dumps of solids written by hand in the layout of sph/dump.h, for the tests of commands. */
 #ifndef SPH_SYNTHETIC_H
 #define SPH_SYNTHETIC_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* dumpfile.c: reads and checks dumps (see dumpfile.h; layout: sph/dump.c). */
+/* dumpfile.c: reads and checks dumps (see dumpfile.h; layout: sph/dump.h). */
 #include "dumpfile.h"
 
 #include <math.h>

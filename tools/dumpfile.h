@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* dumpfile.h: a dump of any dimension and precision, read into memory and checked (layout: sph/dump.c). It shares no
+/* dumpfile.h: a dump of any dimension and precision, read into memory and checked (layout: sph/dump.h). It shares no
    code with the kernel, so it is a second reading of the format. */
 #ifndef DUMPFILE_H
 #define DUMPFILE_H

@@ -3,8 +3,8 @@
    tests and on a bare machine alike. It is a pure function of its parameters: it keeps no state of its own.
 
    To run one: fill p with the parameters' values, configure, add what the host knows (port, threads), sph_init, build,
-   then step; call scene_between after every step (it ends the damping when the scene asks for that). p must stay while the
-   simulation lives: motions read it. */
+   then step; call scene_between after every step (it ends the damping when the scene asks for that). p must stay
+   while the simulation lives: motions read it. */
 #ifndef EXAMPLES_SCENE_H
 #define EXAMPLES_SCENE_H
 
@@ -55,7 +55,8 @@ enum {
     {"damp_steps", "steps", "how long damping acts; 0: to the end", damp_steps_, 0, 1e9, SCENE_WHOLE}
 
 /* one row; a scene's own default comes out of the tuple that SCENE_PARAMS_OF hands through the list */
-#define SCENE_ROW(own, name, kind, start, low, high, in, allowed, change, unit, what, word, word_unit, min, max, whose) \
+#define SCENE_ROW(own, name, kind, start, low, high, in, allowed, change, unit, what, word, word_unit, min, max,       \
+                  whose)                                                                                              \
     {word, word_unit, what, SCENE_START_##whose(own, name, start), min, max, SCENE_KIND_##kind},
 #define SCENE_START_USUAL(own, name, start) start
 #define SCENE_START_OWN(own, name, start) SCENE_OWN_##name own

@@ -52,7 +52,8 @@ sph_config scene_config(const double *p, double dx, double rho0, double sound_sp
     c.smoothing_length = p[SCENE_H] * dx;
     c.rho0 = rho0;
     c.sound_speed = sound_speed;
-    /* the limit with gravity (Gray 2.30) is a Courant number too, and shall not bind before the one that is asked for */
+    /* the limit with gravity (Gray 2.30) is a Courant number too, and shall not bind before the one that is asked for
+       */
     c.gravity_factor = c.cfl > c.gravity_factor ? c.cfl : c.gravity_factor;
     c.on_leave = SPH_REMOVE;
     return c;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* crc.h: the CRC-32 of dumps (IEEE 802.3), written apart from dump.c, to put the checksums of a changed
+/* crc.h: the CRC-32 of dumps (IEEE 802.3), written apart from stream.c, to put the checksums of a changed
    dump right again. */
 #ifndef SPH_TEST_CRC_H
 #define SPH_TEST_CRC_H
