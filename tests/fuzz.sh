@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # fuzz.sh: fuzzes the targets of tests/fuzz, replays or renews their committed corpus. Called by the Makefile.
 #   run     fuzzes each of TARGETS for SECONDS_EACH seconds, two at a time; writes BUILD/fuzz.csv; needs clang with libFuzzer
-#   replay  gives the committed corpus to each target; clang with sanitizers where it is there, else CC without
+#   replay  gives the committed corpus to each target, by clang with sanitizers; with PLAIN=1 by CC without
 #   keep    shrinks what `run` found and the committed corpus into tests/fuzz/corpus; TARGET.past there holds inputs that
 #           once were findings: add one with build/fuzz/replay_TARGET --pack FILE >>tests/fuzz/corpus/TARGET.past
 set -u
@@ -95,7 +95,8 @@ run() {
 
 replay() {
     bad=0
-    if can_sanitize; then
+    if [ "${PLAIN:-0}" = 0 ]; then
+        can_sanitize || { echo "fuzz.sh: no $CLANG with sanitizers; as root: apt-get install clang libclang-rt-14-dev; without them: PLAIN=1" >&2; exit 2; }
         how="$CLANG, sanitizers"
         again=$again/sanitized
         compile replay "$again" "$CLANG" "$sanitize" "$sanitize" || exit 1

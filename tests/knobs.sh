@@ -14,7 +14,8 @@ dim=${KNOB_BUILD%?} double=0
 [ "${KNOB_BUILD#?}" = d ] && double=1
 case $sets$seed in *[!0-9]*) echo "knobs.sh: '$sets' and '$seed' must be whole numbers: how many random sets, and their seed" >&2; exit 2 ;; esac
 rm -rf "$dir" && mkdir -p "$dir/cache"
-grep "^$KNOB_BUILD," tests/golden.csv >"$dir/golden.csv"
+grep "^$KNOB_BUILD," tests/golden.csv >"$dir/golden.csv" && cut -d, -f1,2 "$dir/golden.csv" >"$dir/cases"
+[ -s "$dir/cases" ] || { echo "knobs.sh: tests/golden.csv has no case of build $KNOB_BUILD" >&2; exit 1; }
 
 # one NAME "flags": the lines for the table and for what went wrong land in $dir/NAME.row and NAME.bad
 one() {
@@ -38,7 +39,14 @@ one() {
         echo "does not link: $(grep -m1 undefined "$d.log")" >"$d.bad"
         return
     fi
-    "$d/golden" >"$d.csv"
+    # 1 says that a case was refused; whatever else says that the program died. No case may be left out.
+    "$d/golden" >"$d.csv" 2>>"$d.log"
+    rc=$? refused=0
+    grep -q ',failed: ' "$d.csv" && refused=1
+    if [ $rc -ne $refused ] || ! cut -d, -f1,2 "$d.csv" | cmp -s - "$dir/cases"; then
+        echo "the golden program exits with $rc after $(wc -l <"$d.csv") of $(wc -l <"$dir/cases") cases" >"$d.bad"
+        return
+    fi
     # what is left out is refused by name, never run; the rest is golden
     grep -v ',failed: ' "$d.csv" >"$d.ran"
     grep ',failed: ' "$d.csv" | grep -vE 'a field of the configuration|an argument' >"$d.bad"
@@ -65,6 +73,7 @@ list() {
                  print "random_" s "|" f}}'
 }
 
+[ -n "$(knobs)" ] || { echo "knobs.sh: found no knob in sph/modules.h" >&2; exit 1; }
 list >"$dir/list"
 running=0
 while IFS='|' read -r name flags; do
@@ -87,6 +96,9 @@ while IFS='|' read -r name flags; do
     [ -f "$dir/$name.row" ] || continue
     IFS=, read -r n ran bytes <"$dir/$name.row"
     saved=$((all - bytes))
+    # everything runs every case, and no build may refuse them all
+    [ "$ran" -eq 0 ] || { [ "$name" = everything ] && [ "$ran" -lt "$(wc -l <"$dir/cases")" ]; } &&
+        { echo "  $name: ran $ran of $(wc -l <"$dir/cases") cases" >&2; bad=$((bad + 1)) ok=no; }
     # leaving code out adds none, but for a jump or two that a compiler encodes longer
     [ $saved -lt -16 ] && { echo "  $name: $((-saved)) bytes more than with everything" >&2; bad=$((bad + 1)) ok=no; }
     echo "$name,$saved,bytes saved,>=-16,$ok"
