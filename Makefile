@@ -79,7 +79,7 @@ scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
-.PHONY: count house
+.PHONY: count house gates gates-quick
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
@@ -198,6 +198,11 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
 
+# those of one build
+$(BUILD)/golden_%: $(BUILD)/obj/%/tests/golden_one.o $(BUILD)/obj/%/tests/golden.o $(BUILD)/libsph%.a
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+
 bits:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
 
@@ -286,6 +291,12 @@ msan:
 # every knob of sph/modules.h off alone, and random sets of them
 knobs:
 	$(Q)BUILD=$(BUILD) CC="$(GCC)" BITS="$(BITS) -fexcess-precision=fast" SIZE="$(SIZE)" sh tests/knobs.sh
+
+# every gate must see what it guards against: it is broken in a copy of the tree
+gates:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" PYTHON="$(PYTHON)" sh tests/gates.sh
+gates-quick:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" PYTHON="$(PYTHON)" sh tests/gates.sh --quick
 
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
@@ -389,5 +400,7 @@ help:
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck, clang-tidy and the rules of the house' \
 	'make house      those rules alone: floors of files, lengths, words        -> $(BUILD)/house.csv' \
+	'make gates      does every gate see what it guards against?               -> $(BUILD)/gates.csv' \
+	'make gates-quick  those that take seconds' \
 	'make clean      removes $(BUILD)' \
 	'Variables: CC OPT CFLAGS LDFLAGS AR SIZE NM GCC CLANG BUILD EXEC; V=1 shows every command.'

@@ -95,6 +95,10 @@ run() {
 
 replay() {
     bad=0
+    for t in $TARGETS; do
+        [ -s "$corpus/$t.pack" ] ||
+            { echo "fuzz.sh: $corpus/$t.pack holds no input; make fuzz and sh tests/fuzz.sh keep make one" >&2; exit 2; }
+    done
     if [ "${PLAIN:-0}" = 0 ]; then
         can_sanitize || { echo "fuzz.sh: no $CLANG with sanitizers; as root: apt-get install clang libclang-rt-14-dev; without them: PLAIN=1" >&2; exit 2; }
         how="$CLANG, sanitizers"
@@ -106,7 +110,6 @@ replay() {
         compile replay "$again" "$CC" "" "" || exit 1
     fi
     for t in $TARGETS; do
-        [ -f "$corpus/$t.pack" ] || { echo "fuzz.sh: no $corpus/$t.pack; make fuzz and sh tests/fuzz.sh keep make one" >&2; exit 2; }
         for p in "$corpus/$t.pack" "$corpus/$t.past"; do
             [ -f "$p" ] || continue
             if said=$("$again/replay_$t" "$p" 2>"$again/$t.err"); then

@@ -4,6 +4,7 @@
 # function (tests/stack.py), checked against a painted one; passes, candidate pairs and instructions of a step. For this
 # machine and, if the tools are there, an emulated Cortex-M4F. Writes BUILD/size.csv, and BUILD/stack.csv with every function.
 #   sh tests/size.sh          sh tests/size.sh --gate: what was measured against tests/results/size.csv, with 3 % to spare
+#   sh tests/size.sh --code host|m4f BUILD: code, writable bytes and stack of that build alone
 set -u
 BUILD=${BUILD:-build} CC=${CC:-cc} SIZE=${SIZE:-size} MAKE=${MAKE:-make} PYTHON=${PYTHON:-python3} ARM_SIZE=${ARM_SIZE:-arm-none-eabi-size}
 ARM_LD=${ARM_LD:-arm-none-eabi-ld}
@@ -32,7 +33,11 @@ gate() {
         }' $committed "$out"
 }
 [ "${1:-}" = --gate ] && { gate; exit $?; }
-[ -z "${1:-}" ] || { echo "size.sh: '$1' is not known; allowed: nothing, or --gate" >&2; exit 2; }
+case ${1:-} in
+'') ;;
+--code) case ${2:-} in host | m4f) ;; *) echo "size.sh: --code '${2:-}'; allowed are host, m4f" >&2; exit 2 ;; esac ;;
+*) echo "size.sh: '$1' is not known; allowed: nothing, --gate, --code" >&2; exit 2 ;;
+esac
 
 . port/cortexm.sh
 mkdir -p "$dir"
@@ -101,16 +106,25 @@ painted() {
 }
 
 bad=0
+# traps: -fno-trapping-math makes two calls of one comparison where doubles are software; no bit depends on it
+arm="-Os -ftrapping-math -fcallgraph-info=su -fexcess-precision=fast"
 graph=
 "$CC" -fcallgraph-info=su -E -x c /dev/null >/dev/null 2>&1 && graph=-fcallgraph-info=su ||
     echo "  $CC has no -fcallgraph-info=su (gcc 10 and later have): no stack rows of this machine" >&2
+if [ "${1:-}" = --code ]; then
+    if [ "$2" = host ]; then
+        measure host "$CC" "$SIZE" "-O2 $graph" "${3:-2f}" "" $HOST_STACK_LIMIT || bad=1
+    else
+        metal_machine cortex-m4f && measure m4f "$metal_cc" "$ARM_SIZE" "$arm" "${3:-2f}" "" $STACK_LIMIT || bad=1
+    fi
+    sh tests/table.sh "$out.tmp" || bad=1
+    exit $bad
+fi
 for b in 1f 1d 2f 2d 3f 3d; do
     measure host "$CC" "$SIZE" "-O2 $graph" $b "" $HOST_STACK_LIMIT || bad=1
     host_scenes $b || bad=1
 done
 if metal_machine cortex-m4f; then
-    # traps: -fno-trapping-math makes two calls of one comparison where doubles are software; no bit depends on it
-    arm="-Os -ftrapping-math -fcallgraph-info=su -fexcess-precision=fast"
     # all of water and gas is held to the limit; with solids it is listed
     measure m4f_fluids "$metal_cc" "$ARM_SIZE" "$arm ${w}SOLID=0" 2f $CODE_LIMIT $STACK_LIMIT || bad=1
     for b in 1f 2f 2d 3f; do
