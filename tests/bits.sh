@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # bits.sh: builds the golden runner many ways and compares every hash with the committed tests/golden.csv.
-#   sh tests/bits.sh                    every level and vector width of this machine by each of COMPILERS (gcc and clang unless
-#                                       said otherwise), which must be there
+#   sh tests/bits.sh                    every level and vector width of this machine by each of COMPILERS (gcc and clang
+#                                       unless said otherwise), which must be there
 #   sh tests/bits.sh --quick            the default compiler, with and without vector lanes; the first in BUILD itself
-#   sh tests/bits.sh --mint "reason"    rewrites tests/golden.csv, with the reason in its header; all ways must agree first
+#   sh tests/bits.sh --mint "reason"    rewrites tests/golden.csv, the reason in its header; all ways must agree first
 #   BUILDS="1f 2f"   these builds only      HALF=1   each way three of the six, the next way the other three (for CI)
 #   READY="gcc-O2=build"   ways that are built already, and where      KEEP=1   what was built stays
 set -u
@@ -61,7 +61,8 @@ END
         return 1
     fi
     for p in $programs; do
-        ${EXEC:-} "$p" >>"$dir/$name.csv" || { echo "$name: a case failed: $(grep -m1 failed "$dir/$name.csv")"; return 1; }
+        ${EXEC:-} "$p" >>"$dir/$name.csv" ||
+            { echo "$name: a case failed: $(grep -m1 failed "$dir/$name.csv")"; return 1; }
     done
 }
 
@@ -74,12 +75,17 @@ half_of() {
 # compares $dir/NAME.csv with the rows of $2 of its builds
 compare() {
     sed '/^#/d' "$2" | grep -E "^($(echo "$3" | tr ' ' '|'))," | diff - "$dir/$1.csv" >"$dir/$1.diff" && return 0
-    echo "$1: $(grep -c '^>' "$dir/$1.diff") of $(wc -l <"$dir/$1.csv") hashes differ, first: $(grep -m1 '^>' "$dir/$1.diff" | cut -c3-)"
+    at=$(grep -m1 '^>' "$dir/$1.diff" | cut -c3-)
+    echo "$1: $(grep -c '^>' "$dir/$1.diff") of $(wc -l <"$dir/$1.csv") hashes differ, first: $at"
     return 1
 }
 
 for c in $COMPILERS; do
-    case $c in gcc) cc=$GCC ;; clang) cc=$CLANG ;; *) echo "bits.sh: COMPILERS has '$c'; allowed are gcc, clang" >&2; exit 2 ;; esac
+    case $c in
+    gcc) cc=$GCC ;;
+    clang) cc=$CLANG ;;
+    *) echo "bits.sh: COMPILERS has '$c'; allowed are gcc, clang" >&2; exit 2 ;;
+    esac
     [ "$mode" = --quick ] || command -v "$cc" >/dev/null 2>&1 ||
         { echo "bits.sh: no $cc; as root: apt-get install $c; or leave it out by name: COMPILERS=..." >&2; exit 1; }
 done
@@ -134,7 +140,8 @@ cases=$(sort -u "$dir/ran" | wc -l)
 if [ "$mode" = --mint ] && [ $bad -eq 0 ]; then
     {
         echo "# SPDX-License-Identifier: MIT. Copyright the sph authors."
-        echo "# Golden state hashes: build, case of tests/cases.h, hash. Written by tests/bits.sh --mint; agreed by $n ways to compile."
+        echo "# Golden state hashes: build, case of tests/cases.h, hash. Written by tests/bits.sh --mint;" \
+            "agreed by $n ways to compile."
         echo "# Reason of the latest change: $reason"
         cat "$dir/$first.csv"
     } >$golden.tmp && mv $golden.tmp $golden

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # count.sh: instructions of a particle-step (all particles count, walls too) of some set-ups (tests/count.c), counted by
-# callgrind in a default build by gcc -O2: the difference of two runs of unequal length, so that set-up drops out. Repeats
-# exactly. Targets: at most 1 % more than tests/results/count_base.csv, of which a default dam break may take 0.75.
-# Writes BUILD/count.csv; the base is for the gcc named in it, with another one compare two checkouts:
+# callgrind in a default build by gcc -O2: the difference of two runs of unequal length, so that set-up drops out.
+# Repeats exactly. Targets: at most 1 % more than tests/results/count_base.csv, of which a default dam break may take
+# 0.75. Writes BUILD/count.csv; the base is for the gcc named in it, with another one compare two checkouts:
 #   sh tests/count.sh     sh tests/count.sh --against DIR   ratios to the kernel of another checkout
 #   ROWS="NAME NAME" sh tests/count.sh   these only
 #   sh tests/count.sh --base DIR      rewrites the base from the checkout there
@@ -18,7 +18,8 @@ case $mode in
 *) echo "count.sh: '$mode'; allowed are --against DIR, --base DIR" >&2; exit 2 ;;
 esac
 for tool in "$GCC" "$VALGRIND"; do
-    command -v "$tool" >/dev/null 2>&1 || { echo "count.sh: no $tool; as root: apt-get install --no-install-recommends gcc valgrind" >&2; exit 2; }
+    command -v "$tool" >/dev/null 2>&1 ||
+        { echo "count.sh: no $tool; as root: apt-get install --no-install-recommends gcc valgrind" >&2; exit 2; }
 done
 
 # name | build | set-up | n | steps not counted | steps in all | most, of the base
@@ -90,7 +91,8 @@ bad=0
 if [ "$mode" = --base ]; then
     {
         echo "# SPDX-License-Identifier: MIT. Copyright the sph authors."
-        echo "# Instructions of a particle-step at commit $(git -C "$given" rev-parse --short HEAD), by $($GCC --version | head -n 1), -O2. Written by tests/count.sh --base."
+        echo "# Instructions of a particle-step at commit $(git -C "$given" rev-parse --short HEAD), by" \
+            "$($GCC --version | head -n 1), -O2. Written by tests/count.sh --base."
         echo "name,value,unit"
     } >"$base.tmp"
 else

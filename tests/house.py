@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 """house.py: the rules of the house, on the sources and on the objects of the kernel.
 
-  floors    a file of sph/ calls, and takes data from, its own floor and those below (tests/floors.txt); no circle of files;
+  floors    a file of sph/ calls, and takes data from, its own floor and those below (tests/floors.txt); no circle of
+  files;
             physics never calls physics, nor an entry an entry
   lines     no line over 120 columns in C, headers, shell and python
   functions in sph/: none over 60 lines, the median at most 8, 90 % at most 30; no `#if` inside one
@@ -23,7 +24,8 @@ APART = ("physics", "entries")  # files of these floors do not call each other
 COLUMNS, LONGEST, MEDIAN, MOST = 120, 60, 8, 30
 FOLDERS = ("sph/", "port/", "examples/", "tools/", "tests/", ".ci/")
 GENERATED = ("tests/refdata/",)
-MODULE_WORDS = ["stress", "damage", "adami", "shepard", "xsph", "viscos", "morris", "diffus", "molteni", "yield", "flaw",
+MODULE_WORDS = ["stress", "damage", "adami", "shepard", "xsph", "viscos", "morris", "diffus", "molteni", "yield",
+                "flaw",
                 "strain", "lennard", "solid", "elastic", "plastic", "brittle", "artificial", "tait", "eos", "wendland",
                 "quintic", "gauge", "summation", "leap", "runge", "predictor", "continuity", "dissipat"]
 NAMES = re.compile(r"(?<![a-z])(?:" + "|".join(MODULE_WORDS) + r")[a-z]*")

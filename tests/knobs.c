@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* knobs.c: what a build with knobs off is asked to run (knobs.sh): a free block of inviscid water, which every build has, as
-   the line `least`; then the golden cases. Exits with 0 if nothing was refused. */
+/* knobs.c: what a build with knobs off is asked to run (knobs.sh): a free block of inviscid water, which every build
+   has, as the line `least`; then the golden cases. Exits with 0 if nothing was refused. */
 #include <stdio.h>
 
 #include "sph/sph.h"

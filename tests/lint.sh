@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# lint.sh: cppcheck (suppressions: tests/cppcheck.txt) and clang-tidy (.clang-tidy) over every source of kernel, port, scenes
-# and tools, and the rules of the house (tests/house.py).
+# lint.sh: cppcheck (suppressions: tests/cppcheck.txt) and clang-tidy (.clang-tidy) over every source of kernel, port,
+# scenes and tools, and the rules of the house (tests/house.py).
 set -u
 BUILD=${BUILD:-build} CPPCHECK=${CPPCHECK:-cppcheck} CLANG_TIDY=${CLANG_TIDY:-clang-tidy}
 JOBS=${JOBS:-$(nproc 2>/dev/null || echo 2)}

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# run.sh BUILD PROGRAM...: runs test programs, JOBS at a time (default: as many as there are processors), one line each as they
-# end; the names of failed tests and what they said follow the line.
+# run.sh BUILD PROGRAM...: runs test programs, JOBS at a time (default: as many as there are processors), one line each
+# as they end; the names of failed tests and what they said follow the line.
 build=$1
 shift
 mkdir -p "$build/tests"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# symbols.sh: what the libraries in BUILD ask of the linker beyond themselves: memcpy, memset, memmove, sqrt and nothing else.
+# symbols.sh: what the libraries in BUILD ask of the linker beyond themselves: memcpy, memset, memmove, sqrt and nothing
+# else.
 set -u
 BUILD=${BUILD:-build} NM=${NM:-nm} bad=0
 for b in ${BUILDS:-1f 1d 2f 2d 3f 3d}; do

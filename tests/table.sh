@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# table.sh FILE.csv: shows a file of columns name,value,unit,target,ok as a readable table; fails if an `ok` is "no" or no row has a target.
+# table.sh FILE.csv: shows a file of columns name,value,unit,target,ok as a readable table; fails if an `ok` is "no" or
+# no row has a target.
 [ -f "$1" ] || { echo "table.sh: no table ${1:-}" >&2; exit 1; }
 awk -F, 'NR > 1 {
     printf "  %-46s %12s %-20s %-9s %s\n", $1, $2, $3, $4, $5
