@@ -80,7 +80,7 @@ scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
-.PHONY: count
+.PHONY: count house gates gates-quick
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
@@ -225,6 +225,11 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
 
+# those of one build
+$(BUILD)/golden_%: $(BUILD)/obj/%/tests/golden_one.o $(BUILD)/obj/%/tests/golden.o $(BUILD)/libsph%.a
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+
 bits:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
 
@@ -314,6 +319,12 @@ msan:
 knobs:
 	$(Q)BUILD=$(BUILD) CC="$(GCC)" BITS="$(BITS) -fexcess-precision=fast" SIZE="$(SIZE)" sh tests/knobs.sh
 
+# every gate must see what it guards against: it is broken in a copy of the tree
+gates:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" PYTHON="$(PYTHON)" sh tests/gates.sh
+gates-quick:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" PYTHON="$(PYTHON)" sh tests/gates.sh --quick
+
 # ---- measurements: each prints a table and writes $(BUILD)/NAME.csv ----
 
 bench:
@@ -377,8 +388,11 @@ $(BUILD)/interpolation_%: $(BUILD)/obj/%/tests/lab/interpolation.o $(BUILD)/libs
 coverage:
 	$(Q)BUILD=$(BUILD)/coverage GCC="$(GCC)" GCOV="$(GCOV)" MAKE="$(MAKE)" OUT=$(BUILD) sh tests/coverage.sh
 
-lint:
-	$(Q)CPPCHECK="$(CPPCHECK)" CLANG_TIDY="$(CLANG_TIDY)" BUILD=$(BUILD) BITS="$(BITS)" sh tests/lint.sh
+# the rules of the house: floors, lengths, words (tests/house.py, tests/floors.txt)
+house: $(BUILD)/libsph2f.a
+	$(Q)$(PYTHON) tests/house.py --build $(BUILD) --nm $(NM)
+lint: $(BUILD)/libsph2f.a
+	$(Q)PYTHON="$(PYTHON)" NM="$(NM)" CPPCHECK="$(CPPCHECK)" CLANG_TIDY="$(CLANG_TIDY)" BUILD=$(BUILD) BITS="$(BITS)" sh tests/lint.sh
 
 clean:
 	$(Q)rm -rf $(BUILD)
@@ -411,6 +425,9 @@ help:
 	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \
 	'make atlas      where methods get unstable, against linear theory (ATLAS: some tables) -> tests/lab/atlas_*.csv' \
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
-	'make lint       cppcheck and clang-tidy, those that are installed' \
+	'make lint       cppcheck, clang-tidy and the rules of the house' \
+	'make house      those rules alone: floors of files, lengths, words        -> $(BUILD)/house.csv' \
+	'make gates      does every gate see what it guards against?               -> $(BUILD)/gates.csv' \
+	'make gates-quick  those that take seconds' \
 	'make clean      removes $(BUILD)' \
 	'Variables: CC OPT CFLAGS LDFLAGS AR SIZE NM GCC CLANG BUILD EXEC; V=1 shows every command.'

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# baremetal.sh: what an embedded user would do, in an emulated Cortex-M4F: the tank of examples/baremetal at a fixed rate,
-# and a dam break of 2,002 particles in 192 KiB of RAM, all told. Hashes must be those of the host. Writes BUILD/baremetal.csv.
+# baremetal.sh: what an embedded user would do, in an emulated Cortex-M4F: the tank of examples/baremetal at a fixed
+# rate, and a dam break of 2,002 particles in 192 KiB of RAM, all told. Hashes must be those of the host. Writes
+# BUILD/baremetal.csv.
 set -u
 BUILD=${BUILD:-build} MAKE=${MAKE:-make} CC=${CC:-cc}
 RAM=${RAM:-196608}   # bytes of RAM that the linker may use
@@ -41,14 +42,17 @@ echo "a dam break in $RAM bytes of RAM on $metal:"
 metal_build "$dir/ram_roomy" -O2 2f "" tests/metal_ram.c || failed "the dam break does not build"
 metal_build_host "$dir/ram_host" 2f tests/metal_ram.c || failed "the dam break does not build for this machine"
 "$dir/ram_host" >"$dir/ram_host.txt" || failed "the dam break does not run on this machine"
-metal_count "$dir/ram_roomy" >"$dir/ram_roomy.txt" || failed "the dam break does not run in a large RAM: $(cat "$dir/ram_roomy.txt")"
+metal_count "$dir/ram_roomy" >"$dir/ram_roomy.txt" ||
+    failed "the dam break does not run in a large RAM: $(cat "$dir/ram_roomy.txt")"
 arena=$(value arena "$dir/ram_roomy.txt")
-if metal_build "$dir/ram" -O2 2f "-Wl,--defsym=ram_size=$RAM,--defsym=stack_size=$STACK" -DARENA="$arena" tests/metal_ram.c \
-    2>"$dir/ram.log"; then
+if metal_build "$dir/ram" -O2 2f "-Wl,--defsym=ram_size=$RAM,--defsym=stack_size=$STACK" -DARENA="$arena" \
+    tests/metal_ram.c 2>"$dir/ram.log"; then
     metal_count "$dir/ram" >"$dir/ram.txt" || failed "the dam break does not run: $(cat "$dir/ram.txt")"
     grep 'bytes$' "$dir/ram.txt"
     for n in water walls; do echo "ram_m4f_$n,$(value $n "$dir/ram.txt"),particles,," >>"$out.tmp"; done
-    for n in steps arena static stack; do echo "ram_m4f_$n,$(value $n "$dir/ram.txt"),$([ $n = steps ] && echo steps || echo bytes),," >>"$out.tmp"; done
+    for n in steps arena static stack; do
+        echo "ram_m4f_$n,$(value $n "$dir/ram.txt"),$([ $n = steps ] && echo steps || echo bytes),," >>"$out.tmp"
+    done
     at_most ram_m4f_stack_room "$(value stack "$dir/ram.txt")" bytes "$STACK"
     at_most ram_m4f_all "$(($(value static "$dir/ram.txt") + STACK))" bytes "$RAM"
     equal ram_m4f_hash "$dir/ram.txt" "$dir/ram_host.txt"

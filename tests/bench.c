@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* bench.c: speed and memory of one build: a dam break with Adami walls, fluid n x n, Wendland C2 at h/dx 1.2,
-   predictor-corrector; and a free block of n x n particles, of water and of a solid, for what a solid costs. Prints rows `name,value,unit,target,ok`; bench.sh compiles it several ways and gathers them.
+   predictor-corrector; and a free block of n x n particles, of water and of a solid, for what a solid costs. Prints
+   rows `name,value,unit,target,ok`; bench.sh compiles it several ways and gathers them.
 
      bench PREFIX TARGET_RATE [full]    TARGET_RATE: M particle-steps/s of whole steps; full: all rows, else the rate only */
 #include <time.h>
@@ -108,8 +109,10 @@ static void solids(const char *prefix)
         const char *name;
         uint32_t form, repulsion;
         double most;
-    } kind[] = {{"elastic", SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, 2.5}, {"elastic_repelling", SPH_UPDATED, SPH_PRINCIPAL, 2.5},
-                {"corrected", SPH_CORRECTED, SPH_NO_ARTIFICIAL_STRESS, 0}, {"total", SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0}};
+    } kind[] = {{"elastic", SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, 2.5},
+                {"elastic_repelling", SPH_UPDATED, SPH_PRINCIPAL, 2.5},
+                {"corrected", SPH_CORRECTED, SPH_NO_ARTIFICIAL_STRESS, 0}, {"total", SPH_TOTAL,
+                    SPH_NO_ARTIFICIAL_STRESS, 0}};
     char name[64];
     size_t elastic = 0;
     for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# bench.sh: compiles bench.c with the kernel in several ways, runs them one after the other (an idle machine, please) and
-# writes BUILD/bench.csv. Targets are for the machine of the committed tests/results/bench.csv.
+# bench.sh: compiles bench.c with the kernel in several ways, runs them one after the other (an idle machine, please)
+# and writes BUILD/bench.csv. Targets are for the machine of the committed tests/results/bench.csv.
 set -u
 BUILD=${BUILD:-build} GCC=${GCC:-gcc} CLANG=${CLANG:-clang}
 BITS=${BITS:--std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math}

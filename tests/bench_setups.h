@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* bench_setups.h: the set-ups of bench.c and count.c: a dam break with Adami walls, Wendland C2 at h/dx 1.2, predictor-corrector,
-   nothing else; and a free block, of water and of a solid. */
+/* bench_setups.h: the set-ups of bench.c and count.c: a dam break with Adami walls, Wendland C2 at h/dx 1.2,
+   predictor-corrector, nothing else; and a free block, of water and of a solid. */
 #ifndef BENCH_SETUPS_H
 #define BENCH_SETUPS_H
 
@@ -73,7 +73,8 @@ static tank fill(uint32_t n, port_posix *pool, sph_stage_log log, void *log_ctx)
     sph_wall w = sph_wall_default();
     check(t.sim, sph_add_fluid(t.sim, NULL, &set), "fluid");
     check(t.sim, sph_add_box(t.sim, set, lo, hi, NULL), "box");
-    check(t.sim, sph_add_wall_box(t.sim, &w, lo, top, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(SPH_DIM - 1), true, NULL), "walls");
+    check(t.sim, sph_add_wall_box(t.sim, &w, lo, top, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(SPH_DIM - 1), true, NULL),
+          "walls");
     check(t.sim, sph_apply_hydrostatic(t.sim, set, hi[SPH_DIM - 1]), "hydrostatic");
     check(t.sim, sph_ready(t.sim), "ready");
     t.particles = sph_count(t.sim);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cortexm_host.c: answers port/cortexm.h on the machine that builds, so that a program for bare metal can be run there and
-   its hashes compared. Nothing is measured: time stands still but for one tick at every wait, and no stack is used. */
+/* cortexm_host.c: answers port/cortexm.h on the machine that builds, so that a program for bare metal can be run there
+   and its hashes compared. Nothing is measured: time stands still but for one tick at every wait, and no stack is
+   used. */
 #include "port/cortexm.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* count.c: runs one set-up for some steps under an instruction counter (count.sh) and prints the particle-steps it made: of
-   every particle, walls too, after each step. Compiled for each build.
+/* count.c: runs one set-up for some steps under an instruction counter (count.sh) and prints the particle-steps it
+   made: of every particle, walls too, after each step. Compiled for each build.
 
      count SETUP N STEPS    bench: the dam break of bench.c; elastic, total: its block of a solid; default, no_books: the scene
                             dam_break or dam_break_3d as it is, and without books */

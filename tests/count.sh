@@ -1,10 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # count.sh: instructions of a particle-step (all particles count, walls too) of some set-ups (tests/count.c), counted by
-# callgrind in a default build by gcc -O2: the difference of two runs of unequal length, so that set-up drops out. Repeats
-# exactly. Targets: at most 1 % more than tests/results/count_base.csv, of which a default dam break may take 0.75.
-# Writes BUILD/count.csv; the base is for the gcc named in it, with another one compare two checkouts:
+# callgrind in a default build by gcc -O2: the difference of two runs of unequal length, so that set-up drops out.
+# Repeats exactly. Targets: at most 1 % more than tests/results/count_base.csv, of which a default dam break may take
+# 0.75. Writes BUILD/count.csv; the base is for the gcc named in it, with another one compare two checkouts:
 #   sh tests/count.sh     sh tests/count.sh --against DIR   ratios to the kernel of another checkout
+#   ROWS="NAME NAME" sh tests/count.sh   these only
 #   sh tests/count.sh --base DIR      rewrites the base from the checkout there
 set -u
 BUILD=${BUILD:-build} GCC=${GCC:-gcc} VALGRIND=${VALGRIND:-valgrind} JOBS=${JOBS:-$(nproc 2>/dev/null || echo 2)}
@@ -17,11 +18,13 @@ case $mode in
 *) echo "count.sh: '$mode'; allowed are --against DIR, --base DIR" >&2; exit 2 ;;
 esac
 for tool in "$GCC" "$VALGRIND"; do
-    command -v "$tool" >/dev/null 2>&1 || { echo "count.sh: no $tool; as root: apt-get install --no-install-recommends gcc valgrind" >&2; exit 2; }
+    command -v "$tool" >/dev/null 2>&1 ||
+        { echo "count.sh: no $tool; as root: apt-get install --no-install-recommends gcc valgrind" >&2; exit 2; }
 done
 
 # name | build | set-up | n | steps not counted | steps in all | most, of the base
-rows() {
+rows() { all_rows | awk -F'|' -v only="${ROWS:-}" 'only == "" || index(" " only " ", " " $1 " ")'; }
+all_rows() {
     cat <<'END'
 bench_2d_f32|2f|bench|60|2|8|1.01
 bench_2d_f64|2d|bench|60|2|8|1.01
@@ -76,6 +79,7 @@ measure() {
 }
 value() { cat "$1/$2.value" 2>/dev/null; }
 
+[ -n "$(rows)" ] || { echo "count.sh: ROWS is '$ROWS'; allowed are" $(all_rows | cut -d'|' -f1) >&2; exit 2; }
 tree=.
 [ "$mode" != --base ] || tree=$given
 measure "$tree" "$dir" || { echo "count.sh: $tree does not build" >&2; exit 1; }
@@ -87,7 +91,8 @@ bad=0
 if [ "$mode" = --base ]; then
     {
         echo "# SPDX-License-Identifier: MIT. Copyright the sph authors."
-        echo "# Instructions of a particle-step at commit $(git -C "$given" rev-parse --short HEAD), by $($GCC --version | head -n 1), -O2. Written by tests/count.sh --base."
+        echo "# Instructions of a particle-step at commit $(git -C "$given" rev-parse --short HEAD), by" \
+            "$($GCC --version | head -n 1), -O2. Written by tests/count.sh --base."
         echo "name,value,unit"
     } >"$base.tmp"
 else

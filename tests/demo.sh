@@ -8,7 +8,8 @@ mkdir -p "$dir"
 rm -f "$dir"/dam_break*
 echo "  a column of water twice as high as wide breaks free (1152 particles and their walls) ..."
 "$build/sph" run dam_break n2=2 n=24 length=10 end=0.35 every=0.01 out="$dir/dam_break"
-awk -f tests/front.awk tests/refdata/martin_moyce_1952_n2_2.csv tests/refdata/vof_dam_break_n2_2.csv "$dir/dam_break.csv"
+awk -f tests/front.awk tests/refdata/martin_moyce_1952_n2_2.csv tests/refdata/vof_dam_break_n2_2.csv \
+    "$dir/dam_break.csv"
 shot=$(ls "$dir"/dam_break_*.sph | sed -n 19p)
 last=$(ls "$dir"/dam_break_*.sph | tail -n 1)
 "$build/sph" render "$shot" out="$dir/dam_break.png" field=speed >/dev/null

@@ -14,7 +14,8 @@ for f in $in_header; do
     echo "$in_table" | grep -qx "$f" || { echo "entries.sh: sph_$f of $header has no row in $table" >&2; bad=1; }
 done
 for f in $in_table; do
-    echo "$in_header" | grep -qx "$f" || { echo "entries.sh: the row $f of $table has no function in $header" >&2; bad=1; }
+    echo "$in_header" | grep -qx "$f" ||
+        { echo "entries.sh: the row $f of $table has no function in $header" >&2; bad=1; }
 done
 [ $n -gt 0 ] || { echo "entries.sh: found no function in $header" >&2; bad=1; }
 [ $bad = 0 ] && echo "entries: all $n functions of $header are driven by $table"

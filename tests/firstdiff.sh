@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # firstdiff.sh: names the first step, pass, field and particle in which two ways to build and run a golden case differ.
 #   sh tests/firstdiff.sh BUILD CASE WAY WAY      for example: 2f base x86_64-gcc s390x
-# BUILD is 1f 1d 2f 2d 3f or 3d, CASE a name of tests/cases.h, a WAY a machine of port/targets.txt, after a colon with more flags:
+# BUILD is 1f 1d 2f 2d 3f or 3d, CASE a name of tests/cases.h, a WAY a machine of port/targets.txt, after a colon with
+# more flags:
 #   sh tests/firstdiff.sh 2f base aarch64 'aarch64:-ffp-contract=fast -DSPH_NO_PROBE'
 # Exit: 0 no difference, 1 a difference was found and named, 2 something is wrong.
 set -u
@@ -26,7 +27,8 @@ stage() {
     d=$dir/$1
     machine_directory "$d" "$cc|$flags|$more"
     gone=$(machine_missing "$d")
-    [ -z "$gone" ] || { echo "firstdiff.sh: ${2%%:*}: $gone; apt-get install --no-install-recommends $packages" >&2; exit 2; }
+    [ -z "$gone" ] ||
+        { echo "firstdiff.sh: ${2%%:*}: $gone; apt-get install --no-install-recommends $packages" >&2; exit 2; }
     if ! machine_link "$d" "$build" "$d/stagelog" tests/stagelog.c "$3" "$more" >"$d/log" 2>&1; then
         cat "$d/log" >&2
         exit 2
@@ -50,10 +52,12 @@ END
 values="$name -DSTAGELOG_STEP=$step -DSTAGELOG_PASS=$pass -DSTAGELOG_FIELD='\"$field\"'"
 stage a "$3" "$values" values
 stage b "$4" "$values" values
-paste -d, "$dir/a.values" "$dir/b.values" | awk -F, -v at="$build $case: first difference in step $step, pass $pass ($stage), field $field" '
+paste -d, "$dir/a.values" "$dir/b.values" |
+    awk -F, -v at="$build $case: first difference in step $step, pass $pass ($stage), field $field" '
     $4 != $8 && (!n++ || $2 + 0 < id) {id = $2; index_ = $1; comp = $3; a = $4; b = $8}
     END {
-        printf "%s, particle %s (component %d, index %d): %s and %s; %d of %d values differ\n", at, id, comp, index_, a, b, n, NR
+        printf "%s, particle %s (component %d, index %d): %s and %s; %d of %d values differ\n", at, id, comp, index_,
+            a, b, n, NR
         exit n == 0
     }' || { echo "firstdiff.sh: hashes of $field differ but no value does" >&2; exit 2; }
 exit 1

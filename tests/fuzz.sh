@@ -1,10 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # fuzz.sh: fuzzes the targets of tests/fuzz, replays or renews their committed corpus. Called by the Makefile.
-#   run     fuzzes each of TARGETS for SECONDS_EACH seconds, two at a time; writes BUILD/fuzz.csv; needs clang with libFuzzer
-#   replay  gives the committed corpus to each target; clang with sanitizers where it is there, else CC without
-#   keep    shrinks what `run` found and the committed corpus into tests/fuzz/corpus; TARGET.past there holds inputs that
-#           once were findings: add one with build/fuzz/replay_TARGET --pack FILE >>tests/fuzz/corpus/TARGET.past
+#   run     fuzzes each of TARGETS for SECONDS_EACH seconds, two at a time; writes BUILD/fuzz.csv; needs clang with
+#           libFuzzer
+#   replay  gives the committed corpus to each target, by clang with sanitizers; with PLAIN=1 by CC without
+#   keep    shrinks what `run` found and the committed corpus into tests/fuzz/corpus; TARGET.past there holds inputs
+#           that once were findings: add one with build/fuzz/replay_TARGET --pack FILE >>tests/fuzz/corpus/TARGET.past
 set -u
 BUILD=${BUILD:-build} CLANG=${CLANG:-clang} CC=${CC:-cc} MAKE=${MAKE:-make}
 TARGETS=${TARGETS:-config particles walls dumps} SECONDS_EACH=${SECONDS_EACH:-60}
@@ -14,7 +15,10 @@ longest=600 # bytes of an input
 export ASAN_OPTIONS=detect_leaks=0 # the kernel allocates nothing, and containers often forbid what the leak finder does
 
 case $SECONDS_EACH in
-'' | *[!0-9]* | 0) echo "fuzz.sh: FUZZ_SECONDS is '$SECONDS_EACH'; it must be a whole number of seconds, 1 or more" >&2; exit 2 ;;
+'' | *[!0-9]* | 0)
+    echo "fuzz.sh: FUZZ_SECONDS is '$SECONDS_EACH'; it must be a whole number of seconds, 1 or more" >&2
+    exit 2
+    ;;
 esac
 for t in $TARGETS; do
     case $t in
@@ -38,7 +42,10 @@ compile() {
 }
 
 fuzz_programs() {
-    can_fuzz || { echo "fuzz.sh: no $CLANG with libFuzzer and sanitizers; as root: apt-get install clang libclang-rt-14-dev" >&2; exit 2; }
+    can_fuzz || {
+        echo "fuzz.sh: no $CLANG with libFuzzer and sanitizers; as root: apt-get install clang libclang-rt-14-dev" >&2
+        exit 2
+    }
     compile fuzz "$dir" "$CLANG" "-fsanitize=fuzzer-no-link $sanitize" "$sanitize" || exit 1
     compile replay "$dir" "$CLANG" "-fsanitize=fuzzer-no-link $sanitize" "$sanitize" || exit 1
 }
@@ -64,7 +71,8 @@ report() { # target, exit status
     row "$1 corpus" "$(find "$dir/corpus/$1" -type f | wc -l)" inputs "" ""
     row "$1 coverage" "$(sed -n 's/.*cov: \([0-9]*\) .*/\1/p' "$dir/$1.log" | tail -n 1)" edges "" ""
     row "$1 findings" "$2" inputs 0 "$([ "$2" = 0 ] && echo yes || echo no)"
-    [ "$2" = 0 ] || grep -m 3 -E 'runtime error|does not hold|ERROR|SUMMARY|Test unit written' "$dir/$1.log" | sed 's/^/      /'
+    [ "$2" = 0 ] || grep -m 3 -E 'runtime error|does not hold|ERROR|SUMMARY|Test unit written' "$dir/$1.log" |
+        sed 's/^/      /'
 }
 
 run() {
@@ -95,7 +103,15 @@ run() {
 
 replay() {
     bad=0
-    if can_sanitize; then
+    for t in $TARGETS; do
+        [ -s "$corpus/$t.pack" ] ||
+            { echo "fuzz.sh: $corpus/$t.pack holds no input; make fuzz, sh tests/fuzz.sh keep make one" >&2; exit 2; }
+    done
+    if [ "${PLAIN:-0}" = 0 ]; then
+        can_sanitize || {
+            echo "fuzz.sh: no $CLANG with sanitizers; as root: apt-get install clang libclang-rt-14-dev" >&2
+            exit 2
+        }
         how="$CLANG, sanitizers"
         again=$again/sanitized
         compile replay "$again" "$CLANG" "$sanitize" "$sanitize" || exit 1
@@ -105,7 +121,6 @@ replay() {
         compile replay "$again" "$CC" "" "" || exit 1
     fi
     for t in $TARGETS; do
-        [ -f "$corpus/$t.pack" ] || { echo "fuzz.sh: no $corpus/$t.pack; make fuzz and sh tests/fuzz.sh keep make one" >&2; exit 2; }
         for p in "$corpus/$t.pack" "$corpus/$t.past"; do
             [ -f "$p" ] || continue
             if said=$("$again/replay_$t" "$p" 2>"$again/$t.err"); then
@@ -128,7 +143,8 @@ keep() {
         unpack "$t"
         rm -rf "$dir/least" && mkdir -p "$dir/least"
         # without counters: an input is kept for an edge of its own, not for how often it takes one
-        "$dir/fuzz_$t" -merge=1 -use_counters=0 -max_len=$longest "$dir/least" "$dir/corpus/$t" >"$dir/$t.merge.log" 2>&1 || exit 1
+        "$dir/fuzz_$t" -merge=1 -use_counters=0 -max_len=$longest "$dir/least" "$dir/corpus/$t" \
+            >"$dir/$t.merge.log" 2>&1 || exit 1
         "$dir/replay_$t" --pack "$dir"/least/* >"$corpus/$t.pack" || exit 1
         echo "  $t: $(find "$dir/least" -type f | wc -l) inputs, $(wc -c <"$corpus/$t.pack") bytes"
     done

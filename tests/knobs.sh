@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # knobs.sh: builds the kernel with every knob of sph/modules.h off alone, and with random sets of knobs off, warnings as
-# errors, and runs the golden cases. A case that asks for what was left out must be refused; every other case must have its
-# golden hash. Prints what each knob saves in code; writes BUILD/knobs.csv.
-#   sh tests/knobs.sh [random sets, default 12] [seed, default 1]
+# errors, and runs the golden cases. A case that asks for what was left out must be refused; every other case must have
+# its golden hash. One case that every build has (tests/knobs.c) must run in each and be the same in all. Prints what
+# each knob saves in code; writes BUILD/knobs.csv.
+#   sh tests/knobs.sh [random sets, default 12] [seed, default 1]     KNOBS="XSPH BOOKS"   of single knobs these only
 set -u
 BUILD=${BUILD:-build} CC=${CC:-gcc} SIZE=${SIZE:-size} JOBS=${JOBS:-2} KNOB_BUILD=${KNOB_BUILD:-2f}
 BITS=${BITS:--std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math}
@@ -12,15 +13,22 @@ dir=$BUILD/knobs out=$BUILD/knobs.csv
 strict="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror"
 dim=${KNOB_BUILD%?} double=0
 [ "${KNOB_BUILD#?}" = d ] && double=1
-case $sets$seed in *[!0-9]*) echo "knobs.sh: '$sets' and '$seed' must be whole numbers: how many random sets, and their seed" >&2; exit 2 ;; esac
+case $sets$seed in
+*[!0-9]*)
+    echo "knobs.sh: '$sets' and '$seed' must be whole numbers: how many random sets, and their seed" >&2
+    exit 2
+    ;;
+esac
 rm -rf "$dir" && mkdir -p "$dir/cache"
 grep "^$KNOB_BUILD," tests/golden.csv >"$dir/golden.csv"
+[ -s "$dir/golden.csv" ] || { echo "knobs.sh: tests/golden.csv has no case of build $KNOB_BUILD" >&2; exit 1; }
+{ echo "$KNOB_BUILD,least" && cut -d, -f1,2 "$dir/golden.csv"; } >"$dir/cases"
 
 # one NAME "flags": the lines for the table and for what went wrong land in $dir/NAME.row and NAME.bad
 one() {
     d=$dir/$1
     mkdir -p "$d"
-    for f in sph/*.c tests/golden.c tests/golden_one.c; do
+    for f in sph/*.c tests/golden.c tests/knobs.c; do
         # many knobs leave many files as they are: text that was compiled before is not compiled again
         # shellcheck disable=SC2086
         key=$($CC $BITS -I. -DSPH_DIM=$dim -DSPH_DOUBLE=$double $2 -E -P "$f" | cksum | tr ' ' _)
@@ -38,34 +46,50 @@ one() {
         echo "does not link: $(grep -m1 undefined "$d.log")" >"$d.bad"
         return
     fi
-    "$d/golden" >"$d.csv"
+    # 1 says that a case was refused; whatever else says that the program died. No case may be left out.
+    "$d/golden" >"$d.csv" 2>>"$d.log"
+    rc=$? refused=0
+    grep -q ',failed: ' "$d.csv" && refused=1
+    if [ $rc -ne $refused ] || ! cut -d, -f1,2 "$d.csv" | cmp -s - "$dir/cases"; then
+        echo "the golden program exits with $rc after $(wc -l <"$d.csv") of $(wc -l <"$dir/cases") cases" >"$d.bad"
+        return
+    fi
     # what is left out is refused by name, never run; the rest is golden
     grep -v ',failed: ' "$d.csv" >"$d.ran"
     grep ',failed: ' "$d.csv" | grep -vE 'a field of the configuration|an argument' >"$d.bad"
     grep -vxF -f "$dir/golden.csv" "$d.ran" >>"$d.bad"
-    rm -f "$d/golden.o" "$d/golden_one.o"
+    rm -f "$d/golden.o" "$d/knobs.o"
     echo "$1,$(wc -l <"$d.ran"),$($SIZE -A "$d"/*.o | awk '$1 ~ /^\.text/ {t += $2} END {print t}')" >"$d.row"
     rm -rf "$d"
 }
 
 # knobs, and sets of them, one a line: name flags
-knobs() { sed -n 's/^    X(\([A-Z0-9_]*\), .*/\1/p' sph/modules.h; }
-minimum="-DSPH_WITH_ALL=0 -DSPH_WITH_WENDLAND_C2=1 -DSPH_WITH_STANDARD=1 -DSPH_WITH_TAIT=1 -DSPH_WITH_PREDICTOR_CORRECTOR=1"
+all_knobs() { sed -n 's/^    X(\([A-Z0-9_]*\), .*/\1/p' sph/modules.h; }
+always="WENDLAND_C2 STANDARD TAIT PREDICTOR_CORRECTOR" # a build needs one kernel, scheme, ...
+minimum=-DSPH_WITH_ALL=0
+for k in $always; do minimum="$minimum -DSPH_WITH_$k=1"; done
 list() {
     echo "everything|"
-    knobs | while read -r k; do echo "no_$k|-DSPH_WITH_$k=0"; done
+    for k in ${KNOBS:-$(all_knobs)}; do echo "no_$k|-DSPH_WITH_$k=0"; done
     echo "minimum|$minimum"
-    knobs | awk -v sets="$sets" -v seed="$seed" '
+    all_knobs | awk -v sets="$sets" -v seed="$seed" -v always="$always" '
         {k[NR] = $1}
         END {srand(seed)
              for (s = 1; s <= sets; s++) {
                  f = ""
                  for (i = 1; i <= NR; i++)
-                     if (rand() < 0.5 && k[i] !~ /^(WENDLAND_C2|STANDARD|TAIT|PREDICTOR_CORRECTOR)$/) f = f " -DSPH_WITH_" k[i] "=0"
+                     if (rand() < 0.5 && !index(" " always " ", " " k[i] " ")) f = f " -DSPH_WITH_" k[i] "=0"
                  print "random_" s "|" f}}'
 }
 
+[ -n "$(all_knobs)" ] || { echo "knobs.sh: found no knob in sph/modules.h" >&2; exit 1; }
+for k in ${KNOBS:-}; do
+    all_knobs | grep -qx "$k" || { echo "knobs.sh: KNOBS has '$k'; allowed are" $(all_knobs) >&2; exit 2; }
+done
 list >"$dir/list"
+# what the least case gives in a build with everything is what it must give in all
+one everything ""
+head -n 1 "$dir/everything.csv" 2>/dev/null | grep -v failed >>"$dir/golden.csv"
 running=0
 while IFS='|' read -r name flags; do
     one "$name" "$flags" &
@@ -87,6 +111,11 @@ while IFS='|' read -r name flags; do
     [ -f "$dir/$name.row" ] || continue
     IFS=, read -r n ran bytes <"$dir/$name.row"
     saved=$((all - bytes))
+    # everything runs every case, every build the least
+    least=1
+    [ "$name" = everything ] && least=$(wc -l <"$dir/cases")
+    { grep -q '^..,least,' "$dir/$name.ran" && [ "$ran" -ge "$least" ]; } ||
+        { echo "  $name: ran $ran of $(wc -l <"$dir/cases") cases" >&2; bad=$((bad + 1)) ok=no; }
     # leaving code out adds none, but for a jump or two that a compiler encodes longer
     [ $saved -lt -16 ] && { echo "  $name: $((-saved)) bytes more than with everything" >&2; bad=$((bad + 1)) ok=no; }
     echo "$name,$saved,bytes saved,>=-16,$ok"

@@ -7,7 +7,8 @@ machine_rows() { sed '/^#/d; /^ *$/d' "$LIST"; }
 machine_names() { machine_rows | awk -F'|' '{gsub(/ /, "", $1); print $1}'; }
 # column $2 of machine $1, without blanks around it
 machine_column() {
-    machine_rows | awk -F'|' -v n="$1" -v k="$2" '{m = $1; gsub(/ /, "", m); if (m == n) {v = $k; gsub(/^ +| +$/, "", v); print v}}'
+    machine_rows | awk -F'|' -v n="$1" -v k="$2" '
+        {m = $1; gsub(/ /, "", m); if (m == n) {v = $k; gsub(/^ +| +$/, "", v); print v}}'
 }
 
 # sets packages, cc, flags, extra, run, every to the columns of machine $1
@@ -19,7 +20,10 @@ read_machine() {
     case $every in
     '' | *[!0-9]* | 0) echo "$0: $1 in $LIST: '$every' in column 7; allowed: a whole number from 1" >&2; return 2 ;;
     esac
-    case $run in *%s*) ;; *) echo "$0: $1 in $LIST: '$run' in column 6; allowed: a command with %s for the program" >&2; return 2 ;; esac
+    case $run in
+    *%s*) ;;
+    *) echo "$0: $1 in $LIST: '$run' in column 6; allowed: a command with %s for the program" >&2; return 2 ;;
+    esac
 }
 
 # says what keeps the machine read last from running here, nothing if nothing does; $1 is a directory for a trial

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* metal_ram.c: a 2-D dam break of 2,002 particles (1,444 of water, 558 of Adami walls) in RAM of 192 KiB, all told: the linker
-   gets no more (tests/baremetal.sh), so that arena, .data, .bss and stack fit or the program does not link. Prints what
-   each takes, the steps, and the hash, which must be that of the same scene on the host. */
+/* metal_ram.c: a 2-D dam break of 2,002 particles (1,444 of water, 558 of Adami walls) in RAM of 192 KiB, all told: the
+   linker gets no more (tests/baremetal.sh), so that arena, .data, .bss and stack fit or the program does not link.
+   Prints what each takes, the steps, and the hash, which must be that of the same scene on the host. */
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -72,7 +72,8 @@ int main(void)
     sph_get_usage(sim, &u);
     const uint64_t hash = sph_hash(sim);
     sph_arena_report(sim, show, NULL);
-    printf("water %" PRIu32 "\nwalls %" PRIu32 "\nsteps %u\narena %u\n", o.fluid, o.wall, STEPS, (unsigned)u.arena_used);
+    printf("water %" PRIu32 "\nwalls %" PRIu32 "\nsteps %u\narena %u\n", o.fluid, o.wall, STEPS,
+           (unsigned)u.arena_used);
     printf("static %u\nstack %u\nstack_room %u\n", (unsigned)cortexm_static_bytes(), (unsigned)stack,
            (unsigned)cortexm_stack_bytes());
     printf("hash %08" PRIx32 "%08" PRIx32 "\n", (uint32_t)(hash >> 32), (uint32_t)hash);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* metal_scenes.c: what the scenes of this build cost that have at most MOST particles, with their defaults (3-D: a third of the
-   particles along an edge):
-   passes, candidate pairs and work of a step, state hash; on bare metal under `-icount shift=0` also instructions, and the
-   depth of the painted stack below sph_init and sph_step. One line a scene of words and values; tests/size.sh makes rows of them. */
+/* metal_scenes.c: what the scenes of this build cost that have at most MOST particles, with their defaults (3-D: a
+   third of the particles along an edge):
+   passes, candidate pairs and work of a step, state hash; on bare metal under `-icount shift=0` also instructions, and
+   the depth of the painted stack below sph_init and sph_step. One line a scene of words and values; tests/size.sh makes
+   rows of them. */
 #include <inttypes.h>
 #include <stdio.h>
 

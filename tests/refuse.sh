@@ -1,15 +1,19 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# refuse.sh: builds and machines that would break bits are refused, and named. Then what the refusal guards against: a build
-# with contraction, let through by SPH_NO_PROBE, differs from a sound one, and firstdiff.sh finds where.
+# refuse.sh: builds and machines that would break bits are refused, and named. Then what the refusal guards against: a
+# build with contraction, let through by SPH_NO_PROBE, differs from a sound one, and firstdiff.sh finds where.
 # Writes BUILD/refuse.csv. Ways whose compiler is not here are left out and said so.
+#   sh tests/refuse.sh [LABEL...]   ways with one of these labels only    STRICT=1   a way that is left out is a failure
 set -u
 . tests/machines.sh
-dir=$BUILD/refuse bad=0 ran=0
+dir=$BUILD/refuse bad=0 ran=0 STRICT=${STRICT:-0}
+# the file with the probe
+probe=$(grep -l SPH_NO_PROBE sph/*.c | head -n 1)
+[ -n "$probe" ] || { echo "refuse: found no file of sph/ with the probe (SPH_NO_PROBE)" >&2; exit 1; }
 mkdir -p "$dir"
 echo "name,value,unit,target,ok" >"$BUILD/refuse.csv"
 
-# label | machine | flags that break (arithmetic.c has the probe) | flags of linking and of refuse.c | what must be said
+# label | machine | flags that break, for the file with the probe | flags of linking and of refuse.c | what must be said
 ways() {
     cat <<'END'
 sound|x86_64-gcc|||ok
@@ -42,26 +46,37 @@ answer() {
     case $cc in *clang*) ;; *) bits="$bits -fexcess-precision=fast" ;; esac
     defines="-I. -Itests -DSPH_DIM=${4%?} -DSPH_DOUBLE=$double"
     # shellcheck disable=SC2086
-    if ! $cc $bits $flags $2 $defines -c sph/arithmetic.c -o "$dir/arithmetic.o" >"$dir/log" 2>&1; then
-        grep -q 'error: .*sph ' "$dir/log" && echo "#error: $(grep -m1 'error: ' "$dir/log" | sed 's/.*sph /sph /')" || cat "$dir/log"
+    if ! $cc $bits $flags $2 $defines -c "$probe" -o "$dir/probe.o" >"$dir/log" 2>&1; then
+        grep -q 'error: .*sph ' "$dir/log" && echo "#error: $(grep -m1 'error: ' "$dir/log" | sed 's/.*sph /sph /')" ||
+            cat "$dir/log"
         return
     fi
     # refuse.c is compiled apart: flags of linking such as -ffast-math are not meant for it
     define=
     case $3 in -D*) define=$3 ;; esac
     # shellcheck disable=SC2086
-    { machine_link "$d" "$4" "$d/refuse_sound" tests/refuse.c && $cc $bits $flags $define $defines -c tests/refuse.c -o "$dir/refuse.o" &&
-        $cc $flags $3 "$dir/refuse.o" "$dir/arithmetic.o" $(echo "$objects" | tr ' ' '\n' | grep -v arithmetic.o) $extra -o "$dir/refuse"; } \
+    { machine_link "$d" "$4" "$d/refuse_sound" tests/refuse.c &&
+        $cc $bits $flags $define $defines -c tests/refuse.c -o "$dir/refuse.o" &&
+        $cc $flags $3 "$dir/refuse.o" "$dir/probe.o" \
+            $(echo "$objects" | tr ' ' '\n' | grep -v "/${probe%.c}.o$") $extra -o "$dir/refuse"; } \
         >"$dir/log" 2>&1 || { cat "$dir/log"; return; }
     machine_run "$dir/refuse"
 }
 
-ways >"$dir/ways"
+: >"$dir/ways"
+for label in "$@"; do
+    ways | grep "^$label|" >>"$dir/ways" || { echo "refuse: no way '$label'; look at ways() in $0" >&2; exit 2; }
+done
+[ $# -gt 0 ] || ways >"$dir/ways"
 while IFS='|' read -r label machine break link want; do
     read_machine "$machine" || exit 2
     gone=$(machine_missing "$dir/try")
-    [ -z "$gone" ] || { echo "  $label: left out: $gone; apt-get install --no-install-recommends $packages"; continue; }
-    for b in 2f 2d; do
+    if [ -n "$gone" ]; then
+        echo "  $label: left out: $gone; apt-get install --no-install-recommends $packages"
+        bad=$((bad + STRICT))
+        continue
+    fi
+    for b in ${BUILDS:-2f 2d}; do
         ran=$((ran + 1)) said=$(answer "$machine" "$break" "$link" $b </dev/null) ok=yes
         case $said in "$want"*) ;; *) ok=no bad=$((bad + 1)) ;; esac
         printf '  %-32s %s  %-4s %s\n' "$label" $b $ok "$said"
@@ -70,13 +85,16 @@ while IFS='|' read -r label machine break link want; do
 done <"$dir/ways"
 
 broken='x86_64-gcc:-mfma -ffp-contract=fast -DSPH_NO_PROBE'
-if grep -qw fma /proc/cpuinfo 2>/dev/null; then
+if [ $# -gt 0 ]; then
+    :
+elif grep -qw fma /proc/cpuinfo 2>/dev/null; then
     for b in 2f 3d; do
         ran=$((ran + 1))
         sh tests/firstdiff.sh $b base x86_64-gcc "$broken" >"$dir/first"
         rc=$?
         sed 's/^/  /' "$dir/first"
-        [ $rc = 1 ] && grep -qE 'step [0-9]+, pass [0-9]+ \([a-z -]+\), field [a-z]+, particle [0-9]+ ' "$dir/first" || { bad=$((bad + 1)); echo "  the difference was not named"; }
+        [ $rc = 1 ] && grep -qE 'step [0-9]+, pass [0-9]+ \([a-z -]+\), field [a-z]+, particle [0-9]+ ' "$dir/first" ||
+            { bad=$((bad + 1)); echo "  the difference was not named"; }
         ran=$((ran + 1))
         sh tests/firstdiff.sh $b base x86_64-gcc x86_64-gcc:-O1 >"$dir/first"
         rc=$?

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* slices.c: a whole small dam break in slices, for some budgets: units and instructions of every slice (on bare metal under
+/* slices.c: a whole small dam break in slices, for some budgets: units and instructions of every slice (on bare metal
+   under
    `-icount shift=0`, where the clock counts instructions; on the host units only). Prints totals, worst cases and
    histograms, which tests/slices.sh judges. Reads the kernel's own count of work, which is not public within a step. */
 #include <inttypes.h>
@@ -131,7 +132,8 @@ static void show(const sph_sim *sim, uint64_t budget, const tally *t)
         {"slices", t->slices}, {"steps", info.step}, {"particles", u.particles}, {"cell_particles", u.cell_particles},
         {"units", t->units}, {"worst_units", t->worst}, {"kernel_worst_units", u.slice_work},
         {"extra", SPH_SLICE_EXTRA(1, sim->grid.slabs, t->slab, sim->grid.slab_cells, u.cell_particles)},
-        {"worst_step_units", u.step_work}, {"step_bound", SPH_STEP_WORK(SWEEPS, u.particles, u.cell_particles, u.cells)},
+        {"worst_step_units", u.step_work}, {"step_bound",
+                                            SPH_STEP_WORK(SWEEPS, u.particles, u.cell_particles, u.cells)},
         {"kinstructions", t->ns / 1000}, {"worst_instructions", t->worst_ns}, {"worst_instructions_units", t->ns_units},
         {"dearest_unit", t->dearest},
     };

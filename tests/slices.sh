@@ -5,8 +5,8 @@
 # Prints histograms and writes BUILD/slices.csv.
 set -u
 BUILD=${BUILD:-build} MAKE=${MAKE:-make} CC=${CC:-cc}
-# a slice of u units takes at most UNIT (u + 100) instructions on an M4F at -O2: the dearest are candidates that are loaded
-# for a single particle
+# a slice of u units takes at most UNIT (u + 100) instructions on an M4F at -O2: the dearest are candidates that are
+# loaded for a single particle
 UNIT=${UNIT:-1000}
 . port/cortexm.sh
 metal_machine cortex-m4f || exit 1
@@ -14,8 +14,10 @@ dir=$BUILD/metal out=$BUILD/slices.csv
 mkdir -p "$dir"
 metal_build "$dir/slices" -O2 2f "" tests/slices.c && metal_build_host "$dir/slices_host" 2f tests/slices.c ||
     { echo "slices: tests/slices.c does not build" >&2; exit 1; }
-"$dir/slices_host" >"$dir/slices_host.txt" || { echo "slices: fails on this machine: $(tail -n 1 "$dir/slices_host.txt")" >&2; exit 1; }
-metal_count "$dir/slices" >"$dir/slices.txt" || { echo "slices: fails on $metal: $(tail -n 1 "$dir/slices.txt")" >&2; exit 1; }
+"$dir/slices_host" >"$dir/slices_host.txt" ||
+    { echo "slices: fails on this machine: $(tail -n 1 "$dir/slices_host.txt")" >&2; exit 1; }
+metal_count "$dir/slices" >"$dir/slices.txt" ||
+    { echo "slices: fails on $metal: $(tail -n 1 "$dir/slices.txt")" >&2; exit 1; }
 
 awk -v unit="$UNIT" -v host="$dir/slices_host.txt" '
 function bar(n, all,   s, k) { s = ""; for (k = 0; k < 50 * n / all; k++) s = s "#"; return s }
@@ -45,8 +47,10 @@ END {
             row(name "_units_from_" at[b, n], many[b, n], "slices", "", "")
         for (n = 1; n <= bins[b]; n++)
             row(name "_instructions_from_" ns_at[b, n], ns_many[b, n], "slices", "", "")
-        printf "budget %d units: %d slices in %d steps of %d particles; longest %d units (at most %d + %d), %d instructions\n",
-            b, v[b, "slices"], v[b, "steps"], v[b, "particles"], v[b, "worst_units"], b, v[b, "extra"], v[b, "worst_instructions"] > "/dev/stderr"
+        printf "budget %d units: %d slices in %d steps of %d particles; ", b, v[b, "slices"], v[b, "steps"],
+            v[b, "particles"] > "/dev/stderr"
+        printf "longest %d units (at most %d + %d), %d instructions\n", v[b, "worst_units"], b, v[b, "extra"],
+            v[b, "worst_instructions"] > "/dev/stderr"
         printf "  %10s %7s %-50s %12s %7s\n", "units from", "slices", "", "instr. from", "slices" > "/dev/stderr"
         for (n = 1; n <= bins[b]; n++)
             printf "  %10d %7d %-50s %12d %7d %s\n", at[b, n], many[b, n], bar(many[b, n], v[b, "slices"]), ns_at[b, n],

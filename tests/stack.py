@@ -142,7 +142,8 @@ def main():
     for bytes_, _, name in rows:
         print(f"stack_{label}_{short(name)},{bytes_},bytes,,")
     bytes_, path, _ = rows[0]
-    print(f"  {label}: {bytes_} bytes: " + " -> ".join(f"{short(n)} {g.frame.get(n, LIBRARY)}" for n in path), file=sys.stderr)
+    print(f"  {label}: {bytes_} bytes: " + " -> ".join(f"{short(n)} {g.frame.get(n, LIBRARY)}" for n in path),
+          file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* stagelog.c: where do two machines part? Runs one case of cases.h and prints a hash of every field after every pass of
    every step; or one field's values, bit for bit, after one pass of one step. firstdiff.sh compares two such logs.
-   No framework, and of libc only printf, so that it runs wherever the kernel does. What to print is given when this file is compiled:
+   No framework, and of libc only printf, so that it runs wherever the kernel does. What to print is given when this
+   file is compiled:
 
      -DSTAGELOG_CASE='"base"'                          lines "step,pass,name,field,hash"; step 0, pass 0 is the set-up
      ... -DSTAGELOG_STEP=1 -DSTAGELOG_PASS=4 -DSTAGELOG_FIELD='"vel"'   lines "index,id,component,bits"
 
-   Passes are counted from 1 within a step. Beside the state fields there are dt, peaks, the filtered density (tmp) and the powers
-   of the books. Before the pass "scatter" a stage's fields are still those of an older one. */
+   Passes are counted from 1 within a step. Beside the state fields there are dt, peaks, the filtered density (tmp) and
+   the powers of the books. Before the pass "scatter" a stage's fields are still those of an older one. */
 #include <stdio.h>
 
 #include "cases.h"

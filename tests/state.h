@@ -21,8 +21,8 @@ typedef struct snapshot {
     size_t bytes;
 } snapshot;
 
-/* copies the arrays of the current buffer to `to` and compares them with `with` (each may be null); returns their bytes, or
-   0 if they differ */
+/* copies the arrays of the current buffer to `to` and compares them with `with` (each may be null); returns their
+   bytes, or 0 if they differ */
 static UNUSED size_t state_arrays(const sph_sim *sim, unsigned char *to, const unsigned char *with)
 {
     const sph_buffer *b = &sim->buf[sim->cur];

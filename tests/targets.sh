@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# targets.sh: the golden runs on every machine of port/targets.txt that this one has tools for: all six builds, every hash
-# against tests/golden.csv. Installs nothing; says what is missing. Writes BUILD/targets.csv.
+# targets.sh: the golden runs on every machine of port/targets.txt that this one has tools for: all six builds, every
+# hash against tests/golden.csv. Installs nothing; says what is missing. Writes BUILD/targets.csv.
 #   sh tests/targets.sh [NAME...]     these machines only (default: all)
 #   sh tests/targets.sh --report [NAME...]   what the latest runs gave, without running anything
 #   sh tests/targets.sh --readme      the table of README.md, from BUILD/targets.csv
@@ -17,7 +17,8 @@ export FULL
 
 # the lines of golden.csv that build $1 must give
 expected() {
-    awk -F, -v b="$1" -v every="$every" -v first="$first" '$1 == b {if (b ~ /^1/ || n == 0 || n % every == first) print; n++}' $golden
+    awk -F, -v b="$1" -v every="$every" -v first="$first" '
+        $1 == b {if (b ~ /^1/ || n == 0 || n % every == first) print; n++}' $golden
 }
 
 # build $2 on machine $1: a line of the table
@@ -38,7 +39,8 @@ one_build() {
         return
     fi
     at=$(diff "$d/$2.want" "$d/$2.got" | grep -m1 '^[<>]' | cut -d, -f2)
-    echo "$1|$version|$2|$cases|first to differ: $at; see: sh tests/firstdiff.sh $2 $at x86_64-gcc $1|${base:--}|$seconds"
+    see="sh tests/firstdiff.sh $2 $at x86_64-gcc $1"
+    echo "$1|$version|$2|$cases|first to differ: $at; see: $see|${base:--}|$seconds"
 }
 
 # everything for machine $1; lines of the table go to $d/table
@@ -79,10 +81,15 @@ if [ "${1:-}" = --readme ]; then
         rest = substr($0, length(m) + 2)
         split(rest, p, ",")
         b = substr(p[1], 1, 2)
-        if (p[1] ~ /_equal$/) {equal[m b] = p[2]; cc[m] = p[3]; gsub(/scenes \(|\)/, "", cc[m]); if (p[5] == "no") equal[m b] = "differs"}
+        if (p[1] ~ /_equal$/) {
+            equal[m b] = p[5] == "no" ? "differs" : p[2]
+            cc[m] = p[3]
+            gsub(/scenes \(|\)/, "", cc[m])
+        }
         if (p[1] == "2f_first_case") hash[m] = p[2]
     } END {
-        print "| target | compiler | base, 2-D float | equal hashes in 1-D float, double | 2-D | 3-D |\n|---|---|---|---|---|---|"
+        print "| target | compiler | base, 2-D float | equal hashes in 1-D float, double | 2-D | 3-D |"
+        print "|---|---|---|---|---|---|"
         n = split(names, name, " ")
         for (i = 1; i <= n; i++)
             if ((m = name[i]) in cc)
@@ -95,6 +102,11 @@ fi
 only_report=0
 [ "${1:-}" = --report ] && { only_report=1; shift; }
 list=${*:-$(machine_names)}
+# no machine goes out of the list unseen: those of the committed table must be in it
+for n in $(sed -n 's/_1f_equal,.*//p' tests/results/targets.csv); do
+    machine_names | grep -qxF "$n" ||
+        { echo "targets.sh: $n of tests/results/targets.csv is not in $LIST" >&2; exit 1; }
+done
 for n in $list; do read_machine "$n" || exit 2; done
 mkdir -p "$dir"
 began=$(date +%s)
@@ -114,5 +126,6 @@ awk -F'|' -v out="$BUILD/targets.csv" 'BEGIN {
 }' "$dir/table"
 ran=$(grep -vc '|left out: ' "$dir/table") left=$(grep -c '|left out: ' "$dir/table")
 bad=$(grep -v '|left out: ' "$dir/table" | grep -vc '|equal|')
-echo "targets: $(echo $list | wc -w) machines, $left left out; $ran builds run, $bad of them differ; $(($(date +%s) - began)) s"
+echo "targets: $(echo $list | wc -w) machines, $left left out; $ran builds run, $bad of them differ;" \
+    "$(($(date +%s) - began)) s"
 [ "$bad" -eq 0 ] && [ "$ran" -gt 0 ] && { [ "$STRICT" = 0 ] || [ "$left" -eq 0 ]; }

@@ -121,7 +121,8 @@ static void of_equals_the_smaller_error_wins_then_the_first(void **state)
     says("run         sph run dam n=2\n");
 }
 
-/* 90 % at 1,000 pairs, 0.5 % at 3,000: nothing of the fourth order falls so fast; b at 1.1 % is finer and worse at 3 % */
+/* 90 % at 1,000 pairs, 0.5 % at 3,000: nothing of the fourth order falls so fast; b at 1.1 % is finer and worse at 3
+   % */
 static void what_was_right_by_luck_is_left_out(void **state)
 {
     (void)state;

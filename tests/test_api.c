@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_api.c: every entry point with null, zero, huge and not-a-number arguments and at the wrong moment; every field of
-   the configuration out of range names itself; arenas; two simulations side by side; no allocation. */
+/* test_api.c: every entry point with null, zero, huge and not-a-number arguments and at the wrong moment; every field
+   of the configuration out of range names itself; arenas; two simulations side by side; no allocation. */
 #include "testing.h"
 
 #define DX 0.1
@@ -344,7 +344,8 @@ static void add_piece(void *ctx, const char *name, size_t bytes)
     *(size_t *)ctx += bytes;
 }
 
-/* whether SPH_USE_ flags can stand together: the filter not with solids, what solids have not without; a corrected form is one */
+/* whether SPH_USE_ flags can stand together: the filter not with solids, what solids have not without; a corrected form
+   is one */
 static bool usable(uint32_t use)
 {
     const bool solid = use & SPH_USE_SOLID;
@@ -380,7 +381,8 @@ static void the_constant_bound_holds_and_is_close(void **state)
                     double m = floor((c.hi[k] - c.lo[k]) / (2 * c.smoothing_length));
                     cells *= m < 1 ? 1 : m;
                 }
-                const size_t need = sph_arena_bytes(&c), bound = SPH_ARENA_BYTES(c.max_particles, cells, threads, bits) + 4 * flaws;
+                const size_t need = sph_arena_bytes(&c), bound = SPH_ARENA_BYTES(c.max_particles, cells, threads,
+                    bits) + 4 * flaws;
                 assert_true(need > 0);
                 if (bound < need || (double)bound > 1.25 * (double)need + 65536)
                     fail_msg("%u particles, %g cells, %u threads, use %u: bound %zu, need %zu", c.max_particles, cells,
@@ -413,7 +415,8 @@ static void the_arena_report_adds_up(void **state)
 /* what a particle costs: all arrays, by the names of the report, over the room for particles */
 static void add_arrays(void *ctx, const char *name, size_t bytes)
 {
-    static const char *const fixed_size[] = {"header", "sets", "wall groups", "thread scratch", "thread scratch of solids", "materials", "cell starts", "slab starts", "flaws",
+    static const char *const fixed_size[] = {"header", "sets", "wall groups", "thread scratch",
+        "thread scratch of solids", "materials", "cell starts", "slab starts", "flaws",
                                              "partial sums for the books"};
     for (size_t k = 0; k < sizeof fixed_size / sizeof *fixed_size; k++)
         if (strcmp(name, fixed_size[k]) == 0)
@@ -438,7 +441,8 @@ static void solids_cost_so_many_bytes_a_particle(void **state)
     static const char *const names[] = {"fluid", "updated", "corrected", "total"};
     (void)state;
     for (uint32_t form = 0; form < SPH_SOLIDS; form++) {
-        const double elastic = particle_bytes(form, 0, 0), all = form ? particle_bytes(form, SPH_VON_MISES, SPH_DIM > 1) : elastic;
+        const double elastic = particle_bytes(form, 0, 0), all = form ? particle_bytes(form, SPH_VON_MISES,
+            SPH_DIM > 1) : elastic;
         print_message("%s: %.1f bytes a particle, yield and damage %.1f more\n", names[form], elastic, all - elastic);
         if (SPH_DIM == 2 && !SPH_DOUBLE && form) { /* the displacement since the start makes it two more than 152 */
             assert_true(elastic <= (form == SPH_TOTAL ? 154 : 152) + 0.5); /* + 0.5: padding behind 20000 */

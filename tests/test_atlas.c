@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_atlas.c: single entries of the stability atlas (tests/lab): methods fail where theory says that they fail and hold
-   where it says that they hold, and what fails grows as fast as theory says. Every subject has a case that fails. */
+/* test_atlas.c: single entries of the stability atlas (tests/lab): methods fail where theory says that they fail and
+   hold where it says that they hold, and what fails grows as fast as theory says. Every subject has a case that
+   fails. */
 #include "testing.h"
 
 #include "tests/lab/atlas.h"
@@ -35,8 +36,8 @@ static void steps_stand_as_long_as_theory_says(void **state)
     }
 }
 
-/* an oscillator of frequency w: without viscosity what keeps one evaluation, and the midpoint rule, amplify it at any step, by
-   1 + (w dt)^4/4 and 1 + (w dt)^4/8; the others stand w dt = 2 */
+/* an oscillator of frequency w: without viscosity what keeps one evaluation, and the midpoint rule, amplify it at any
+   step, by 1 + (w dt)^4/4 and 1 + (w dt)^4/8; the others stand w dt = 2 */
 static void factors_are_those_of_an_oscillator(void **state)
 {
     theory_step t = {.medium = THEORY_WATER, .integrator = SPH_KICK_DRIFT_KICK, .kernel = SPH_CUBIC, .n = 12, .h = 1.2,
@@ -65,7 +66,8 @@ static void theory_is_that_of_dispersion(void **state)
     (void)state;
     for (double volume = 0.9; volume < 1.11; volume += 0.05)
         for (size_t i = 0; i < sizeof wave / sizeof *wave; i++) {
-            const theory_box b = {.form = SPH_UPDATED, .kernel = SPH_QUINTIC, .n = 12, .h = 1.3, .mu = 0.22, .volume = volume};
+            const theory_box b = {.form = SPH_UPDATED, .kernel = SPH_QUINTIC, .n = 12, .h = 1.3, .mu = 0.22,
+                                  .volume = volume};
             const elastic_state e = {.rho = 1, .c = 1, .mu = 0.22, .pressure = 1 - volume};
             double v[2];
             bool both;
@@ -107,7 +109,8 @@ static void tension_breaks_all_but_the_total_form(void **state)
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         const growth_case c = square(list[i].form, list[i].h, list[i].volume);
         const double t = growth_theory(&c), m = growth_measured(&c, 250);
-        print_message("atlas: %s, h %.1f, V/V0 %.3f: grows by %.3f c0/dx, theory %.3f\n", atlas_forms[c.form], c.h, c.volume,
+        print_message("atlas: %s, h %.1f, V/V0 %.3f: grows by %.3f c0/dx, theory %.3f\n", atlas_forms[c.form], c.h,
+                      c.volume,
                       m, t);
         assert_int_equal(m > 0, list[i].grows);
         assert_int_equal(t > 0, list[i].grows);
@@ -166,7 +169,8 @@ static void chains_buckle_at_powells_stretch(void **state)
         const double end = 2000, seen = tension_cholesky(kernel[i], 1.2, 30, 0.2, TENSION_SEEN / end);
         const double limit = tension_cholesky(kernel[i], 1.2, 30, 0.2, 0);
         const double ran = tension_running(kernel[i], 1.2, 30, 0.2, end, 0.01);
-        print_message("atlas: chain, %s: buckles at a stretch of %.5f, theory %.5f\n", atlas_kernels[kernel[i]], ran, limit);
+        print_message("atlas: chain, %s: buckles at a stretch of %.5f, theory %.5f\n", atlas_kernels[kernel[i]], ran,
+                      limit);
         close_to(ran, seen, 0.02 * seen);
         close_to(seen, limit, 0.03 * limit);
     }
@@ -183,7 +187,8 @@ static void water_in_tension_clumps(void **state)
     for (uint32_t choice = 0; choice < WATER_CHOICES; choice++) {
         const water_case w = {.kernel = SPH_WENDLAND_C2, .h = 1.2, .density = 0.95, .choice = choice};
         const double m = water_growth(&w, 250), t = water_theory(&w);
-        print_message("atlas: water in tension, choice %u: grows by %.3f c0/dx, theory of the plain form %.3f\n", choice, m, t);
+        print_message("atlas: water in tension, choice %u: grows by %.3f c0/dx, theory of the plain form %.3f\n",
+                      choice, m, t);
         if (choice == WATER_PLAIN || choice == WATER_WEAK)
             close_to(m, t, 0.05 * t);
         else if (choice == WATER_FLOOR || choice == WATER_DIRECT)
@@ -208,7 +213,8 @@ static void walls_keep_a_tank_still_or_not(void **state)
     assert_int_equal(wall_rest(&mirror, early, 1, t, &failed), 1);
     assert_true(t[0].speed < 0.003 && t[0].moved < 0.01);
     assert_int_equal(wall_rest(&adami, late, 2, t, &failed), 2);
-    print_message("atlas: tank, Adami walls: moved by %.3f dx in 1000 steps, by %.3f in 10000\n", t[0].moved, t[1].moved);
+    print_message("atlas: tank, Adami walls: moved by %.3f dx in 1000 steps, by %.3f in 10000\n", t[0].moved,
+                  t[1].moved);
     assert_true(t[0].moved < 0.03 && t[1].moved > 0.2);
 }
 

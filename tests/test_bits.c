@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_bits.c: the state hash of every case of cases.h does not depend on the number of threads, the order of chunks, the
-   slicing, or a dump and restore in between. (Compilers, levels and vector widths: tests/bits.sh.) */
+/* test_bits.c: the state hash of every case of cases.h does not depend on the number of threads, the order of chunks,
+   the slicing, or a dump and restore in between. (Compilers, levels and vector widths: tests/bits.sh.) */
 #include "testing.h"
 
 #include "cases.h"
@@ -52,7 +52,8 @@ static void every_choice_gives_another_hash(void **state)
     }
 }
 
-/* In float every case goes with every setting, in double, which takes the same ways, with one of them, in turn: half the time. */
+/* In float every case goes with every setting, in double, which takes the same ways, with one of them, in turn: half
+   the time. */
 static bool tried(uint32_t k, uint32_t setting, uint32_t settings) { return !SPH_DOUBLE || k % settings == setting; }
 
 static void threads_in_any_order_change_no_bit(void **state)

@@ -143,8 +143,8 @@ static sph_sim *drop(uint32_t integrator, double dt, uint32_t viscosity)
     return sim;
 }
 
-/* relative drift of the energy over a tenth of a second. Leap-frog's velocities are half a step ahead of its positions, so
-   the energy read after a step is off by up to dt/2 |dK/dt|: *skew, 0 for the others */
+/* relative drift of the energy over a tenth of a second. Leap-frog's velocities are half a step ahead of its positions,
+   so the energy read after a step is off by up to dt/2 |dK/dt|: *skew, 0 for the others */
 static double drift(uint32_t integrator, double dt, uint32_t viscosity, double *lost, double *skew)
 {
     sph_sim *sim = drop(integrator, dt, viscosity);
@@ -173,7 +173,8 @@ static void energy_of_an_inviscid_drop_drifts_by_time_error_only(void **state)
     double lost, skew, finer;
     (void)state;
     for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
-        double coarse = drift(i, 1e-3, SPH_INVISCID, &lost, &skew), fine = drift(i, 2.5e-4, SPH_INVISCID, &lost, &finer);
+        double coarse = drift(i, 1e-3, SPH_INVISCID, &lost, &skew), fine = drift(i, 2.5e-4, SPH_INVISCID, &lost,
+            &finer);
         print_message("integrator %u: energy drift %.2e at dt 1e-3, %.2e at dt 2.5e-4\n", i, coarse, fine);
         assert_true(coarse < 0.01 + skew);
         if (SPH_DOUBLE)

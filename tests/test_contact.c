@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_contact.c: two bodies of the total-Lagrangian form. Blocks that touch and draw apart feel nothing; blocks that collide
-   rebound with their momentum and nearly all their energy, and keep apart. */
+/* test_contact.c: two bodies of the total-Lagrangian form. Blocks that touch and draw apart feel nothing; blocks that
+   collide rebound with their momentum and nearly all their energy, and keep apart. */
 #include "testing.h"
 
 enum { ACROSS = 6 };

@@ -96,7 +96,8 @@ static void damage_stops_at_the_share_of_active_flaws(void **state)
                 const double want = active == n ? 1 : pow(active / (double)n, 1.0 / SPH_DIM);
                 close_to(root(p.damage), want, 8 * EPS);
                 stopped += active > 0 && active < n;
-            } else { /* his strain changes with D: sigma (1 - D)/(2 mu (1 - D^2)) = sigma/(2 mu (1 + D)) falls as D grows */
+            /* his strain changes with D: sigma (1 - D)/(2 mu (1 - D^2)) = sigma/(2 mu (1 + D)) falls as D grows */
+            } else {
                 const double strain = p.damage < 1 ? first / (1 + p.damage) : 0;
                 const uint32_t now = active_of(sim, p.id, strain, &n);
                 assert_true(root(p.damage) <= root(active / (double)n) * (1 + 8 * EPS));
@@ -271,7 +272,8 @@ static void flaws_follow_weibull(void **state)
                       low[2]);
         assert_true(more > 0.99 && more < 1.8);
         for (int e = 0; e < 3; e++)
-            close_to(low[e], more * f.k * MANY * pow(eps[e], f.m), 4 * sqrt(1.0 * total * (e + 1) / 4.0 * (3 - e) / 4.0));
+            close_to(low[e], more * f.k * MANY * pow(eps[e], f.m),
+                     4 * sqrt(1.0 * total * (e + 1) / 4.0 * (3 - e) / 4.0));
         assert_int_equal(free_sims(NULL), 0);
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_dispersion.c: the sums and waves of tools/dispersion.c against Gray's printed tables, closed forms, differences of
-   the kernels, the exact equations for long waves, and the forces on a moved lattice written down a second time. */
+/* test_dispersion.c: the sums and waves of tools/dispersion.c against Gray's printed tables, closed forms, differences
+   of the kernels, the exact equations for long waves, and the forces on a moved lattice written down a second time. */
 #include "testing.h"
 
 #include "tools/commands.h"
@@ -48,7 +48,8 @@ static void the_tables_are_those_printed(void **state)
         }
         table_close(&t);
     }
-    print_message("dispersion: tables B.3 to B.5 within %.1e; printed F, low for neighbours beyond h, within %.1e\n", worst,
+    print_message("dispersion: tables B.3 to B.5 within %.1e; printed F, low for neighbours beyond h, within %.1e\n",
+                  worst,
                   cut);
 }
 

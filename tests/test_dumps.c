@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_dumps.c: a dump that is cut off anywhere, or in which any one byte is changed, is refused; the simulation that was to
-   take it is as it was in every array and scalar, and steps to the same hash as if nothing had been offered. */
+/* test_dumps.c: a dump that is cut off anywhere, or in which any one byte is changed, is refused; the simulation that
+   was to take it is as it was in every array and scalar, and steps to the same hash as if nothing had been offered. */
 #include "testing.h"
 
 #include "fuzz/crc.h"
@@ -248,7 +248,8 @@ static void impossible_values_are_refused_though_checksums_are_right(void **stat
         for (int bad = 0; bad < (bed.rock && k >= 3 ? 5 : 3); bad++) {
             const size_t at = section(reals[k]) + 64;
             memcpy(changed_bytes, true_bytes, bed.dump.n);
-            put_real(changed_bytes + at, bad == 0 ? NAN : bad == 1 ? INFINITY : bad == 2 ? -INFINITY : k == 4 && bad == 3 ? 1.01 : -0.01);
+            put_real(changed_bytes + at, bad == 0 ? NAN : bad == 1 ? INFINITY : bad == 2 ? -INFINITY : k == 4 &&
+                     bad == 3 ? 1.01 : -0.01);
             mend(bed.dump.n);
             assert_int_equal(offer(changed_bytes, bed.dump.n, reals[k], at, true), SPH_DUMP_CORRUPT);
         }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_entry.c: every function of sph.h, in every state of a simulation, with null, zero, huge, negative, subnormal, infinite
-   and not-a-number arguments. A call that fails returns a status that the manual gives, leaves state, set-up and configuration
-   bit for bit as they were, and writes to none of its results. One row a function: tests/entries.sh compares the table
-   with the header. */
+/* test_entry.c: every function of sph.h, in every state of a simulation, with null, zero, huge, negative, subnormal,
+   infinite and not-a-number arguments. A call that fails returns a status that the manual gives, leaves state, set-up
+   and configuration bit for bit as they were, and writes to none of its results. One row a function: tests/entries.sh
+   compares the table with the header. */
 #include "testing.h"
 
 #include "state.h"
@@ -190,7 +190,8 @@ static void row_config_default(void)
 enum { PLAIN = 19, CHOICES = 20, NUMBERS = PLAIN + 3 * SPH_DIM, WORDS = CHOICES + 2 * SPH_DIM };
 static double *number_of(sph_config *c, uint32_t i)
 {
-    double *const list[] = {&c->spacing, &c->smoothing_length, &c->rho0, &c->sound_speed, &c->alpha, &c->beta, &c->nu, &c->delta,
+    double *const list[] = {&c->spacing, &c->smoothing_length, &c->rho0, &c->sound_speed, &c->alpha, &c->beta, &c->nu,
+                            &c->delta,
                             &c->xsph, &c->damping, &c->dt, &c->cfl, &c->viscous_factor, &c->force_factor, &c->gravity_factor,
                             &c->dt_max, &c->dt_min, &c->stress_epsilon, &c->max_stretch};
     const uint32_t k = (i - PLAIN) / 3;
@@ -198,7 +199,8 @@ static double *number_of(sph_config *c, uint32_t i)
 }
 static uint32_t *word_of(sph_config *c, uint32_t i)
 {
-    uint32_t *const list[] = {&c->cookie, &c->max_particles, &c->max_threads, &c->on_leave, &c->on_cross, &c->kernel, &c->scheme,
+    uint32_t *const list[] = {&c->cookie, &c->max_particles, &c->max_threads, &c->on_leave, &c->on_cross, &c->kernel,
+                              &c->scheme,
                               &c->density, &c->eos, &c->viscosity, &c->diffusion, &c->shepard_every, &c->integrator,
                               &c->port.threads, &c->solid, &c->yield, &c->damage, &c->max_flaws, &c->artificial_stress,
                               &c->stress_exponent};
@@ -347,7 +349,8 @@ static void row_add_solid(void)
     EACH_NUMBER(x)
         for (int k = 0; k < 8; k++) {
             sph_solid m = good;
-            double *const place[] = {&m.mass, &m.rho0, &m.sound_speed, &m.shear, &m.yield, &m.hardening, &m.crack_speed, &m.flaw_radius};
+            double *const place[] = {&m.mass, &m.rho0, &m.sound_speed, &m.shear, &m.yield, &m.hardening, &m.crack_speed,
+                                     &m.flaw_radius};
             *place[k] = x;
             attempt(sph_add_solid(bed.sim, &m, OUT(uint32_t), group));
             if (!finite(x) || x < 0 || x > 1e30 || (k < 3 && x > 0 && x < 1e-300))
@@ -359,9 +362,11 @@ static void row_add_solid(void)
         if_idle(sph_add_solid(bed.sim, &m, OUT(uint32_t), group), bed.rock && w < 256 ? SPH_OK : SPH_BAD_ARGUMENT);
         m.body = 0;
         m.held = w;
-        if_idle(sph_add_solid(bed.sim, &m, OUT(uint32_t), group), bed.rock && w < 1u << SPH_DIM ? SPH_OK : SPH_BAD_ARGUMENT);
+        if_idle(sph_add_solid(bed.sim, &m, OUT(uint32_t), group),
+                bed.rock && w < 1u << SPH_DIM ? SPH_OK : SPH_BAD_ARGUMENT);
         m.motion = sway;
-        if_idle(sph_add_solid(bed.sim, &m, OUT(uint32_t), group), bed.rock && w && w < 1u << SPH_DIM ? SPH_OK : SPH_BAD_ARGUMENT);
+        if_idle(sph_add_solid(bed.sim, &m, OUT(uint32_t), group),
+                bed.rock && w && w < 1u << SPH_DIM ? SPH_OK : SPH_BAD_ARGUMENT);
     }
 }
 
@@ -587,7 +592,8 @@ static void row_apply_hydrostatic(void)
         if (!(x > -1e15 && x < 1e15))
             refused(sph_apply_hydrostatic(bed.sim, 0, x));
     }
-    refused(sph_apply_hydrostatic(bed.sim, 0, 9.9e14)); /* finite, but so deep that water would have 100 times its density */
+    /* finite, but so deep that water would have 100 times its density */
+    refused(sph_apply_hydrostatic(bed.sim, 0, 9.9e14));
 }
 
 /* ---- walls ---- */
@@ -600,7 +606,8 @@ static void row_wall_default(void)
 static void row_motion_table(void)
 {
     const double t[] = {0, 1}, x[] = {0, 2};
-    const sph_table bad[] = {{0, 0, t, x}, {2, SPH_DIM, t, x}, {2, 0xffffffffu, t, x}, {2, 0, NULL, x}, {2, 0, t, NULL}};
+    const sph_table bad[] = {{0, 0, t, x}, {2, SPH_DIM, t, x}, {2, 0xffffffffu, t, x}, {2, 0, NULL, x},
+                             {2, 0, t, NULL}};
     double d[SPH_DIM], v[SPH_DIM];
     for (uint32_t k = 0; k <= 5; k++) { /* a table that is none, and no table: the wall rests */
         for (int a = 0; a < SPH_DIM; a++)
@@ -664,7 +671,8 @@ static void row_add_wall_box(void)
             for (int high = 0; high < 2; high++) {
                 double *const p = high ? &hi[k] : &lo[k], good = *p;
                 *p = x;
-                attempt(sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0) | SPH_HIGH(SPH_DIM - 1), k & 1, OUT(uint32_t)));
+                attempt(sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0) | SPH_HIGH(SPH_DIM - 1), k & 1,
+                                         OUT(uint32_t)));
                 if (!finite(x) || x > 1e6 || x < -1e6)
                     refused(sph_add_wall_box(bed.sim, &w, lo, hi, SPH_LOW(0), true, OUT(uint32_t)));
                 *p = good;
@@ -939,7 +947,8 @@ static void row_dump(void)
     with_status(sph_dump(bed.sim, SPH_DUMP_FULL, deny_sink, NULL), SPH_SINK_FAILED);
     EACH_WORD(w) {
         tape.n = 0;
-        const bool known = !(w & ~(SPH_DUMP_FULL | SPH_DUMP_PICTURE | SPH_DUMP_ACCELERATION)); /* stress and damage are of a picture */
+        /* stress and damage are of a picture */
+        const bool known = !(w & ~(SPH_DUMP_FULL | SPH_DUMP_PICTURE | SPH_DUMP_ACCELERATION));
         with_status(sph_dump(bed.sim, w, record, NULL), known ? SPH_OK : SPH_BAD_ARGUMENT);
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_eos_schemes.c: equations of state, and the sums of every scheme against the printed equations, summed over all pairs
-   in double precision by the test itself; filters, diffusion and viscosity against what they must do. */
+/* test_eos_schemes.c: equations of state, and the sums of every scheme against the printed equations, summed over all
+   pairs in double precision by the test itself; filters, diffusion and viscosity against what they must do. */
 #include "testing.h"
 
 #define N (SPH_DIM == 1 ? 40u : SPH_DIM == 2 ? 12u : 8u)
@@ -204,7 +204,8 @@ static void a_linear_velocity_gives_its_divergence(void **state)
         for (int k = 0; k < SPH_DIM; k++)
             div += 0.1 * (k + 1);
         /* the density changes by less than 1e-5 of itself in the step, and so does the rate */
-        close_to((by_id(sim, id).rho - 1000) / c.dt, -1000 * div * lattice_slope(&c), 1000 * div * (SPH_DOUBLE ? 1e-4 : 2e-3));
+        close_to((by_id(sim, id).rho - 1000) / c.dt, -1000 * div * lattice_slope(&c),
+                 1000 * div * (SPH_DOUBLE ? 1e-4 : 2e-3));
         close_to(lattice_slope(&c), 1, 0.05);
     }
 }
@@ -355,7 +356,8 @@ static double amplitude(const sph_sim *sim)
     return sum / norm;
 }
 /* The velocity v_y = U sin(k x) of a viscous fluid decays as exp(-nu k^2 t). On the lattice, which hardly moves (U is
-   small), Morris' sum has the rate sum V 2 nu (-g) r^2/(r^2 + 0.01 h^2) (1 - cos k x): both are checked, the second closely. */
+   small), Morris' sum has the rate sum V 2 nu (-g) r^2/(r^2 + 0.01 h^2) (1 - cos k x): both are checked, the second
+   closely. */
 static void morris_viscosity_decays_a_shear_wave_at_the_exact_rate(void **state)
 {
     sph_config c = periodic_config(N * 2 * DX, DX);
@@ -370,7 +372,8 @@ static void morris_viscosity_decays_a_shear_wave_at_the_exact_rate(void **state)
         for (int b = -m; b <= m; b++)
             for (int d = SPH_DIM > 2 ? -m : 0; d <= (SPH_DIM > 2 ? m : 0); d++) {
                 double r2 = (a * a + b * b + d * d) * DX * DX;
-                lattice_rate -= pow(DX, SPH_DIM) * 2 * c.nu * grad(&c, sqrt(r2)) * r2 / (r2 + 0.01 * h * h) * (1 - cos(k * a * DX));
+                lattice_rate -= pow(DX, SPH_DIM) * 2 * c.nu * grad(&c,
+                    sqrt(r2)) * r2 / (r2 + 0.01 * h * h) * (1 - cos(k * a * DX));
             }
     sph_sim *sim = new_sim(&c);
     uint32_t set;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_fail.c: a step that fails says why and whose fault it was, leaves the state bit for bit as it was, and the run goes
-   on once the cause is gone. */
+/* test_fail.c: a step that fails says why and whose fault it was, leaves the state bit for bit as it was, and the run
+   goes on once the cause is gone. */
 #include "testing.h"
 
 #define N (SPH_DIM == 1 ? 40u : SPH_DIM == 2 ? 12u : 6u)

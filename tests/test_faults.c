@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_faults.c: faults put into the middle of a run. Numbers that are none, or far too large, in every array of reals and
-   positions of the buffer being written or read, in the scratch of the threads; particles thrown out; callbacks that go
-   wrong; sinks that fail at any byte. A step that fails leaves every array and scalar as it was, and the run goes on to the
-   same hash as one that was never disturbed. (Arrays of indices are not attacked: the kernel trusts its own.) */
+/* test_faults.c: faults put into the middle of a run. Numbers that are none, or far too large, in every array of reals
+   and positions of the buffer being written or read, in the scratch of the threads; particles thrown out; callbacks
+   that go wrong; sinks that fail at any byte. A step that fails leaves every array and scalar as it was, and the run
+   goes on to the same hash as one that was never disturbed. (Arrays of indices are not attacked: the kernel trusts its
+   own.) */
 #include "testing.h"
 
 #include "sph/scratch.h"
@@ -44,11 +45,15 @@ static const fault_case cases[] = {
     {.name = "kick-drift-kick", .integrator = SPH_KICK_DRIFT_KICK, .wall = SPH_WALL_ADAMI, .diffusion = true},
     {.name = "leap-frog", .integrator = SPH_LEAP_FROG, .wall = SPH_WALL_MONAGHAN_KOS, .books = true},
     {.name = "Runge-Kutta", .integrator = SPH_RUNGE_KUTTA, .wall = SPH_WALL_GHOST, .xsph = true},
-    {.name = "Runge-Kutta, momentum", .integrator = SPH_RUNGE_KUTTA_MOMENTUM, .wall = SPH_WALL_LENNARD_JONES, .books = true},
-    {.name = "solid, corrected, kick-drift-kick", .integrator = SPH_KICK_DRIFT_KICK, .solid = SPH_CORRECTED, .yield = SPH_VON_MISES,
+    {.name = "Runge-Kutta, momentum", .integrator = SPH_RUNGE_KUTTA_MOMENTUM, .wall = SPH_WALL_LENNARD_JONES,
+     .books = true},
+    {.name = "solid, corrected, kick-drift-kick", .integrator = SPH_KICK_DRIFT_KICK, .solid = SPH_CORRECTED,
+     .yield = SPH_VON_MISES,
      .damage = SPH_BENZ_ASPHAUG, .repel = SPH_PRINCIPAL, .books = true, .held = true},
-    {.name = "solid, total, Runge-Kutta", .integrator = SPH_RUNGE_KUTTA, .solid = SPH_TOTAL, .yield = SPH_VON_MISES, .held = true},
-    {.name = "solid, updated, predictor-corrector", .wall = SPH_WALL_ADAMI, .solid = SPH_UPDATED, .yield = SPH_VON_MISES_GRAY,
+    {.name = "solid, total, Runge-Kutta", .integrator = SPH_RUNGE_KUTTA, .solid = SPH_TOTAL, .yield = SPH_VON_MISES,
+     .held = true},
+    {.name = "solid, updated, predictor-corrector", .wall = SPH_WALL_ADAMI, .solid = SPH_UPDATED,
+     .yield = SPH_VON_MISES_GRAY,
      .damage = SPH_BENZ_ASPHAUG_GRAY, .repel = SPH_COMPONENTS},
     {.name = "solid, total, leap-frog", .integrator = SPH_LEAP_FROG, .wall = SPH_WALL_MONAGHAN_KOS, .solid = SPH_TOTAL,
      .damage = SPH_BENZ_ASPHAUG},
@@ -324,7 +329,8 @@ static void a_thrown_position_breaks_nothing(void **state)
             if (!slices(after))
                 break;
             for (uint32_t k = 0; k < 4 * SPH_DIM; k++) {
-                const sph_pos e = bed.sim->grid.extent[k / 4], far[] = {-e, -1, e, 2 * e - 1 - bed.sim->grid.cell_size[k / 4]};
+                const sph_pos e = bed.sim->grid.extent[k / 4], far[] = {-e, -1, e,
+                    2 * e - 1 - bed.sim->grid.cell_size[k / 4]};
                 snapshot s;
                 rewind_bed();
                 keep_state(bed.sim, &s);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_fields.c: fields of solids in dumps against values by hand, what a dump must carry for them, export and pictures of
-   them, and the colours of signed fields. */
+/* test_fields.c: fields of solids in dumps against values by hand, what a dump must carry for them, export and pictures
+   of them, and the colours of signed fields. */
 #include "testing.h"
 
 #include "synthetic.h"
@@ -141,7 +141,8 @@ static void export_carries_them(void **state)
     assert_int_equal(command(cmd_export, dump, to, "walls=yes"), 0);
     assert_true(table_open(&t, out));
     assert_int_equal(t.rows, 3);
-    static const char *const names[] = {"stress_xx_Pa", "stress_zz_Pa", "stress_xy_Pa", "mean_stress_Pa", "von_mises_Pa",
+    static const char *const names[] = {"stress_xx_Pa", "stress_zz_Pa", "stress_xy_Pa", "mean_stress_Pa",
+                                        "von_mises_Pa",
                                         "plastic", "damage"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         assert_true(table_column(&t, names[i], strlen(names[i])) >= 0);

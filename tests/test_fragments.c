@@ -332,7 +332,8 @@ static void bad_input_is_refused(void **state)
     synth *s = plate();
     (void)state;
     synth_write(s, dump);
-    static const char *const bad[] = {"damage=0", "damage=x", "link=0.1", "link=101", "across=maybe", "least=0", "bins=0",
+    static const char *const bad[] = {"damage=0", "damage=x", "link=0.1", "link=101", "across=maybe", "least=0",
+                                      "bins=0",
                                       "by=mass",  "k=1e10",   "rate=1",   "crack=1"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         assert_int_equal(run(dump, bad[i], NULL, NULL), 2);

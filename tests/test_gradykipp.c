@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_gradykipp.c: fragment statistics against numerical quadrature of the integrals they come from, and Gray's figures. */
+/* test_gradykipp.c: fragment statistics against numerical quadrature of the integrals they come from, and Gray's
+   figures. */
 #include "testing.h"
 
 #include "tools/commands.h"
@@ -21,7 +22,8 @@ static double integral(double (*f)(const gradykipp *g, double x), const gradykip
 static double relieved(const gradykipp *g, double s)
 {
     const double pi = 3.14159265358979323846, ball[] = {2, pi, 4 * pi / 3}, t = gradykipp_time(g);
-    return ball[g->dim - 1] * pow(g->crack_speed * (t - s), g->dim) * g->m * g->k * pow(g->rate, g->m) * pow(s, g->m - 1);
+    return ball[g->dim - 1] * pow(g->crack_speed * (t - s), g->dim) * g->m * g->k * pow(g->rate, g->m) * pow(s,
+        g->m - 1);
 }
 static double size_by_volume(const gradykipp *g, double size) { return size * gradykipp_density(g, size); }
 static double number(const gradykipp *g, double size)
@@ -59,7 +61,8 @@ static void sizes_are_those_of_the_density(void **state)
     }
     /* 6.17 written out */
     const double l = 0.3, t = gradykipp_time(&gray);
-    const double f = 3.14159265358979323846 * 8.5 * 1.4e19 / 8 / 0.4 * l * l * pow(t - l / 0.8, 7.5) * pow(3.33e-3, 8.5);
+    const double f = 3.14159265358979323846 * 8.5 * 1.4e19 / 8 / 0.4 * l * l * pow(t - l / 0.8, 7.5) * pow(3.33e-3,
+        8.5);
     close_to(gradykipp_density(&gray, l), f, 1e-11 * f);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_kernels.c: every smoothing kernel in this dimension: its integral, its derivative, its support, its sign, and the
-   arguments that sph_kernel_value refuses. */
+/* test_kernels.c: every smoothing kernel in this dimension: its integral, its derivative, its support, its sign, and
+   the arguments that sph_kernel_value refuses. */
 #include "testing.h"
 
 #define PI 3.14159265358979323846
@@ -102,7 +102,8 @@ static void the_support_is_where_it_says(void **state)
 
 static void published_central_values_hold(void **state)
 {
-    /* W(0) h^DIM: cubic 2/3, 10/(7 pi), 1/pi (Monaghan & Lattanzio 1985); Wendland C2 of the family for the dimension */
+    /* W(0) h^DIM: cubic 2/3, 10/(7 pi), 1/pi (Monaghan & Lattanzio 1985); Wendland C2 of the family for the
+       dimension */
     static const double cubic[3] = {2.0 / 3, 10 / (7 * PI), 1 / PI};
     static const double c2[3] = {5.0 / 8, 7 / (4 * PI), 21 / (16 * PI)};
     static const double quintic[3] = {66.0 / 120, 7 * 66 / (478 * PI), 66 / (120 * PI)};

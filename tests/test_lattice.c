@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_lattice.c: lattices of particles under stress (scene lattice_box): single waves run at the frequencies and growth
-   rates of Gray's dispersion relation (2001, eqs 5.70-5.75), tension clumps particles unless the artificial stress acts, and
-   the scene's measures of order are right on lattices. */
+/* test_lattice.c: lattices of particles under stress (scene lattice_box): single waves run at the frequencies and
+   growth rates of Gray's dispersion relation (2001, eqs 5.70-5.75), tension clumps particles unless the artificial
+   stress acts, and the scene's measures of order are right on lattices. */
 #include "testing.h"
 
 #include "examples/scenes/solid.h"
@@ -54,8 +54,8 @@ static sph_sim *build(void)
     return sim;
 }
 
-/* Fits omega^2 (negative: growth^2) of the run to v(t + d) + v(t - d) = 2 cos(omega d) v(t). The wave is the shortest along
-   x: neighbours move against each other. */
+/* Fits omega^2 (negative: growth^2) of the run to v(t + d) + v(t - d) = 2 cos(omega d) v(t). The wave is the shortest
+   along x: neighbours move against each other. */
 static double shortest_wave(const char *amplitude)
 {
     enum { ROWS = 64, SPAN = 8 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_profile.c: sampling of dumps along lines and ellipses: linear fields come out exactly by moving least squares, at
-   surfaces too; constants by Shepard's mean; displacement from a reference; extremes; what is refused. */
+/* test_profile.c: sampling of dumps along lines and ellipses: linear fields come out exactly by moving least squares,
+   at surfaces too; constants by Shepard's mean; displacement from a reference; extremes; what is refused. */
 #include "testing.h"
 
 #include "synthetic.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_scenes.c: every scene of this dimension builds and runs some steps with its default parameters, and its history is
-   finite; every choice of a scene's parameters stays inside what it declares. */
+/* test_scenes.c: every scene of this dimension builds and runs some steps with its default parameters, and its history
+   is finite; every choice of a scene's parameters stays inside what it declares. */
 #include "testing.h"
 
 #include "examples/scenes/scene.h"

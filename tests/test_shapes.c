@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_shapes.c: sph_add_shape: counts against exact volumes and the order at which the error falls, symmetry, the distances
-   on the shifted lattices of Gray 2001 section 5.6.5 with and without a seam, cuts and cylinders, and every bad argument. */
+/* test_shapes.c: sph_add_shape: counts against exact volumes and the order at which the error falls, symmetry, the
+   distances on the shifted lattices of Gray 2001 section 5.6.5 with and without a seam, cuts and cylinders, and every
+   bad argument. */
 #include "testing.h"
 
 #define DX 0.1
@@ -189,9 +190,9 @@ static void a_hole_and_its_disc_are_the_whole(void **state)
         }
 }
 
-/* Errors of the volumes of ellipsoids, of rings, and of plates with a hole, relative to the volume of the ellipsoid, root
-   mean square over many radii. The number of lattice points in a round body of radius R errs by the square root of that of
-   the cells on its rim, (R/dx)^((DIM-1)/2): relative to its volume, at order (DIM + 1)/2 in dx/R. */
+/* Errors of the volumes of ellipsoids, of rings, and of plates with a hole, relative to the volume of the ellipsoid,
+   root mean square over many radii. The number of lattice points in a round body of radius R errs by the square root of
+   that of the cells on its rim, (R/dx)^((DIM-1)/2): relative to its volume, at order (DIM + 1)/2 in dx/R. */
 enum { DISC, RING, PLATE, SUBJECTS };
 static const char *const subject_names[] = {"disc", "ring", "plate with a hole"};
 enum { RADII = 128 };
@@ -229,7 +230,8 @@ static void the_error_of_a_volume_falls_at_the_right_order(void **state)
         for (uint32_t subject = 0; subject < SUBJECTS; subject++) {
             const double e = volume_error(subject, l, 6), f = volume_error(subject, l, 6 * pow(2, steps));
             const double order = log2(e / f) / steps;
-            print_message("shapes: lattice %u, %s: error %.2e, %.2e, order %.2f\n", l, subject_names[subject], e, f, order);
+            print_message("shapes: lattice %u, %s: error %.2e, %.2e, order %.2f\n", l, subject_names[subject], e, f,
+                          order);
             close_to(order, (SPH_DIM + 1) / 2.0, 0.35);
         }
 }
@@ -274,8 +276,8 @@ static void a_ring_mirrors_in_every_axis(void **state)
             }
 }
 
-/* on a square lattice a plate with a hole in its middle mirrors in every axis; on a shifted one in those two, turned about
-   the middle, where it has an even number of rows */
+/* on a square lattice a plate with a hole in its middle mirrors in every axis; on a shifted one in those two, turned
+   about the middle, where it has an even number of rows */
 static void a_plate_with_a_hole_is_symmetric(void **state)
 {
     (void)state;
@@ -393,8 +395,8 @@ static void an_odd_number_of_rows_leaves_a_seam(void **state)
 #endif
 }
 
-/* rows of a shifted box: a quarter and three quarters of a spacing inside lo, by turns; in 3-D every second layer begins
-   with the other one */
+/* rows of a shifted box: a quarter and three quarters of a spacing inside lo, by turns; in 3-D every second layer
+   begins with the other one */
 static void rows_stand_where_the_manual_says(void **state)
 {
     (void)state;
@@ -439,13 +441,14 @@ static void lo_and_hi_cut_an_outline(void **state)
         const uint32_t lower = added(sim, &s);
         s.lo[SPH_DIM - 1] = s.hi[SPH_DIM - 1] = 0;
         assert_true(upper == lower);
-        assert_int_equal(upper + lower - added(sim, &s), SPH_DIM == 2 ? 10 : 66); /* a^2 + b^2 < 4.6^2, a + 1/2 by turns */
+        /* a^2 + b^2 < 4.6^2, a + 1/2 by turns */
+        assert_int_equal(upper + lower - added(sim, &s), SPH_DIM == 2 ? 10 : 66);
     }
     assert_int_equal(slice, SPH_DIM == 1 ? 1 : SPH_DIM == 2 ? 10 : 68); /* (a + 1/2)^2 + (b + 1/2)^2 < 4.6^2 - 1/4 */
 }
 
-/* points of a layer of a cylinder's lattice in a ring, by hand: rows across the axis are shifted by turns, and all of them
-   go through the centre where the rows of a shifted lattice are along the axis or pass it */
+/* points of a layer of a cylinder's lattice in a ring, by hand: rows across the axis are shifted by turns, and all of
+   them go through the centre where the rows of a shifted lattice are along the axis or pass it */
 enum { SQUARE, ALONG, ACROSS };
 static uint32_t ring_points(int how, int layer, double inner, double outer)
 {

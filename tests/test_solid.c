@@ -15,7 +15,8 @@ typedef struct gradient {
 } gradient;
 
 /* dS/dt and d rho/dt of a body with v = L x and random stresses, against the formula with a share of L */
-static gradient gradient_errors(uint32_t form, uint32_t scheme, uint32_t kernel, double jitter, bool loose, double share)
+static gradient gradient_errors(uint32_t form, uint32_t scheme, uint32_t kernel, double jitter, bool loose,
+                                double share)
 {
     const double mu = 3e4, half = 0.5 * CLOUD * DX;
     gradient g = {0, 0, 0};
@@ -64,7 +65,8 @@ static void linear_fields_have_exact_gradients(void **state)
         for (int s = 0; s < 2; s++)
             for (uint32_t kernel = SPH_CUBIC; kernel <= SPH_WENDLAND_C2; kernel += SPH_WENDLAND_C2) {
                 const gradient g = gradient_errors(form, schemes[s], kernel, 0.2, true, 1);
-                print_message("%s, scheme %u, kernel %u: dS/dt off by %.2g, d rho/dt by %.2g (eps %.2g)\n", form_names[form],
+                print_message("%s, scheme %u, kernel %u: dS/dt off by %.2g, d rho/dt by %.2g (eps %.2g)\n",
+                              form_names[form],
                               schemes[s], kernel, g.worst, g.rate, EPS);
                 assert_true(g.worst < 16 * CLOUD * EPS && g.rate < 16 * CLOUD * EPS);
             }
@@ -160,7 +162,8 @@ static outcome drive_errors(const drive *d, uint32_t steps, tensor want, double 
 /* both errors, at dt and at half of it: second order, or nothing but rounding is left */
 static void second_order(const char *what, const drive *d, tensor want, double growth, uint32_t steps, double most)
 {
-    const outcome b = drive_errors(d, 2 * steps, want, growth), a = SPH_DOUBLE ? drive_errors(d, steps, want, growth) : b;
+    const outcome b = drive_errors(d, 2 * steps, want, growth), a = SPH_DOUBLE ? drive_errors(d, steps, want,
+        growth) : b;
     const double noise = (SPH_DOUBLE ? 64 : 8) * steps * EPS;
     for (int k = 0; k < 2; k++) {
         const double e = k ? a.density : a.stress, f = k ? b.density : b.stress;
@@ -171,7 +174,8 @@ static void second_order(const char *what, const drive *d, tensor want, double g
         if (f > most + noise)
             fail_msg("%s, %s: off by %g, more than %g", what, integrator_names[d->integrator], f, most);
         if (SPH_DOUBLE && f > noise && order < 1.8)
-            fail_msg("%s, %s, %s: order %.2f in dt", what, integrator_names[d->integrator], k ? "density" : "stress", order);
+            fail_msg("%s, %s, %s: order %.2f in dt", what, integrator_names[d->integrator], k ? "density" : "stress",
+                     order);
     }
 }
 

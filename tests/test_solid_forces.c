@@ -226,7 +226,8 @@ static balance balance_of(const sph_sim *sim)
 }
 
 /* a block that was set moving by v = L x, L having no turn: it stretches and shears to and fro */
-static sph_sim *plate(uint32_t form, uint32_t integrator, double dt, double speed, const sph_solid *m, uint32_t viscosity)
+static sph_sim *plate(uint32_t form, uint32_t integrator, double dt, double speed, const sph_solid *m,
+                      uint32_t viscosity)
 {
     sph_config c = solid_config(form, integrator, 2 * PLATE * DX, DX);
     tensor l = {{{speed, 0.5 * speed, 0}, {0.5 * speed, -0.7 * speed, 0}, {0, 0, 0.2 * speed}}};
@@ -363,7 +364,8 @@ static void held_sets_do_the_work_on_the_books(void **state)
 typedef struct pushes {
     double a[400][SPH_DIM], size;
 } pushes;
-static const pushes *pushed(const sph_config *config, const double (*x)[SPH_DIM], const tensor *sigma, uint32_t n, pushes *o)
+static const pushes *pushed(const sph_config *config, const double (*x)[SPH_DIM], const tensor *sigma, uint32_t n,
+                            pushes *o)
 {
     memset(o, 0, sizeof *o);
     for (int with = 0; with < 2; with++) {
@@ -416,7 +418,8 @@ static void push_sums(const sph_config *c, const double (*x)[SPH_DIM], const ten
                 const double p = -trace_of(sigma[e ? j : i]) / (SPH_DIM == 1 ? 3 : SPH_DIM);
                 rho[e] = RHO * (1 + p / (RHO * c->sound_speed * c->sound_speed));
             }
-            const double f = pow(w / at_dx, c->stress_exponent) * c->stress_epsilon * dw / sqrt(r2) * RHO * pow(DX, SPH_DIM);
+            const double f = pow(w / at_dx, c->stress_exponent) * c->stress_epsilon * dw / sqrt(r2) * RHO * pow(DX,
+                SPH_DIM);
             const double wi = c->scheme == SPH_WEAK ? 1 / (rho[0] * rho[1]) : 1 / (rho[0] * rho[0]);
             const double wj = c->scheme == SPH_WEAK ? wi : 1 / (rho[1] * rho[1]);
             for (int k = 0; k < SPH_DIM; k++)
@@ -442,8 +445,8 @@ static tensor toss_rotation(void)
     return SPH_DIM == 2 ? rotation(3 * toss(), 0, 0, 1) : rotation(3 * toss(), toss(), toss(), 1.1);
 }
 
-/* Per particle a stress of its own, made of principal stresses and a rotation; the first of the kinds are the same for all:
-   hydrostatic tension, uniaxial tension, hydrostatic compression. */
+/* Per particle a stress of its own, made of principal stresses and a rotation; the first of the kinds are the same for
+   all: hydrostatic tension, uniaxial tension, hydrostatic compression. */
 enum { HYDROSTATIC, UNIAXIAL, COMPRESSION, ANY, KINDS };
 static uint32_t stressed(uint32_t kind, uint32_t repel, double (*x)[SPH_DIM], tensor *sigma, tensor *r)
 {
@@ -473,7 +476,8 @@ static uint32_t stressed(uint32_t kind, uint32_t repel, double (*x)[SPH_DIM], te
     return n;
 }
 
-/* positions are rounded to a part in 1e14 (float: 1e7) of a spacing, which the eighth power multiplies by some twenty */
+/* positions are rounded to a part in 1e14 (float: 1e7) of a spacing, which the eighth power multiplies by some
+   twenty */
 static void artificial_stress_is_its_formula(void **state)
 {
     static double x[400][SPH_DIM];

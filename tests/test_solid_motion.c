@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_solid_motion.c: solids that move: held sets against their motion, standing waves, the total-Lagrangian form turned,
-   stretched, torn and in contact, and rock beside a gas. */
+/* test_solid_motion.c: solids that move: held sets against their motion, standing waves, the total-Lagrangian form
+   turned, stretched, torn and in contact, and rock beside a gas. */
 #include "bodies.h"
 
 #define DX 0.1
@@ -46,7 +46,8 @@ static sph_sim *held_block(uint32_t form, uint32_t integrator, uint32_t motion, 
     return sim;
 }
 
-/* along the axes that are held: where the motion says, to one quantum, and with its velocity; along the others: free fall */
+/* along the axes that are held: where the motion says, to one quantum, and with its velocity; along the others: free
+   fall */
 static void held_sets_go_where_they_are_told(void **state)
 {
     (void)state;
@@ -72,7 +73,8 @@ static void held_sets_go_where_they_are_told(void **state)
                             /* its velocity is that of half a step later */
                             const double ahead = integrator == SPH_LEAP_FROG ? 0.5e-4 : 0;
                             close_to(b.v[k], free_fall ? -10 * (t + ahead) : 0, 150 * EPS);
-                            close_to(b.x[k] - a.x[k], free_fall ? -5 * t * t : 0, 150 * (sim->grid.quantum + EPS * 2e-5));
+                            close_to(b.x[k] - a.x[k], free_fall ? -5 * t * t : 0,
+                                     150 * (sim->grid.quantum + EPS * 2e-5));
                         }
                     }
                     assert_int_equal(free_sims(NULL), 0);
@@ -107,8 +109,8 @@ static void a_held_set_can_be_let_go(void **state)
 
 /* ---- standing waves ---- */
 
-/* speed of a standing wave of n spacings in a periodic box, from the time at which its velocity first vanishes, over what it
-   should be */
+/* speed of a standing wave of n spacings in a periodic box, from the time at which its velocity first vanishes, over
+   what it should be */
 typedef struct wave {
     double k, size;
     int axis;
@@ -185,7 +187,8 @@ static void waves_have_their_speed(void **state)
                 continue;
             const double plain = form == SPH_UPDATED ? lattice_sum() : 1;
             const uint32_t n = SPH_DIM == 3 ? 24 : 32;
-            const double coarse = wave_speed(form, n, shear) / plain - 1, fine = wave_speed(form, 2 * n, shear) / plain - 1;
+            const double coarse = wave_speed(form, n, shear) / plain - 1, fine = wave_speed(form, 2 * n,
+                shear) / plain - 1;
             print_message("%s, %s wave: speed off by %.3f %% at %u spacings, by %.3f %% at twice as many\n",
                           form_names[form],
                           shear ? "shear" : "longitudinal", 100 * coarse, n, 100 * fine);
@@ -209,7 +212,8 @@ static void a_turned_body_has_exact_gradients(void **state)
         sph_sim *sim = new_sim(&c);
         must(sim, sph_add_solid(sim, &m, &set, NULL));
         add_block(sim, set, SPH_DIM == 2 ? 8 : 5, DX, 0.2);
-        const tensor f = times(rotation(turn * 17 * PI / 72, 0.3 * (SPH_DIM == 3), 0, 1), stretch), spin = toss_tensor(2);
+        const tensor f = times(rotation(turn * 17 * PI / 72, 0.3 * (SPH_DIM == 3), 0, 1),
+                               stretch), spin = toss_tensor(2);
         tensor l = spin;
         for (uint32_t i = 0; i < sph_count(sim); i++) {
             const sph_particle p = by_id(sim, i);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_threads.c: true threads. Steps by the POSIX pool give the hash of one thread, in whole steps and in slices; what a
-   failing step tells is the same; and simulations stepped by several host threads at once do not meet. `make tsan` runs it under
-   the thread sanitizer, which sees any two accesses that nothing orders. */
+/* test_threads.c: true threads. Steps by the POSIX pool give the hash of one thread, in whole steps and in slices; what
+   a failing step tells is the same; and simulations stepped by several host threads at once do not meet. `make tsan`
+   runs it under the thread sanitizer, which sees any two accesses that nothing orders. */
 #include "testing.h"
 
 #include "cases.h"

@@ -79,8 +79,8 @@ static double amplitude(const sph_sim *sim)
     return sum;
 }
 
-/* On the lattice both equations multiply a first derivative by A(k) = sum V (-g) x sin(k x)/k, so a standing wave turns with
-   the speed A c0: what is left of the test is the amplitude, U/c0 = 2e-3, and the step, (w dt)^2/24 = 4e-5. */
+/* On the lattice both equations multiply a first derivative by A(k) = sum V (-g) x sin(k x)/k, so a standing wave turns
+   with the speed A c0: what is left of the test is the amplitude, U/c0 = 2e-3, and the step, (w dt)^2/24 = 4e-5. */
 static double lattice_factor(void)
 {
     const double k = 2 * PI / LENGTH, h = 1.2 * DX;
@@ -119,7 +119,8 @@ static void sound_travels_at_the_speed_of_the_equation_of_state(void **state)
     (void)state;
     for (uint32_t eos = 0; eos < SPH_ISOTHERMAL; eos++) {
         double c = measured_speed(eos, 10 * factor[eos]);
-        print_message("equation of state %u: sound at %.4f c0, lattice %.4f\n", eos, c / 10, lattice_factor() * factor[eos]);
+        print_message("equation of state %u: sound at %.4f c0, lattice %.4f\n", eos, c / 10,
+                      lattice_factor() * factor[eos]);
         close_to(c / (10 * factor[eos]), lattice_factor(), 0.004);
         close_to(lattice_factor(), 1, 0.05);
     }

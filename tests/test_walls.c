@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_walls.c: every kind of wall pushes the fluid off; walls stand where they should; images behind periodic and mirror
-   faces act like real copies; a moving wall does the work that the fluid gains; gates open. */
+/* test_walls.c: every kind of wall pushes the fluid off; walls stand where they should; images behind periodic and
+   mirror faces act like real copies; a moving wall does the work that the fluid gains; gates open. */
 #include "testing.h"
 
 #define DX 0.1
@@ -260,8 +260,10 @@ static void a_moving_wall_does_the_work_that_the_fluid_gains(void **state)
         const double gained = t.kinetic + t.internal - before;
         print_message("wall kind %u: work %.5g, energy gained %.5g\n", kind, t.wall_work, gained);
         assert_true(t.wall_work > 0);
-        /* A held ghost has no pressure of its own, so the account closes but for the error of time. Force walls hold energy
-           of their own, and the pressure that Adami's extrapolation gives a wall does work on the wall's density, which is
+        /* A held ghost has no pressure of its own, so the account closes but for the error of time. Force walls hold
+           energy
+           of their own, and the pressure that Adami's extrapolation gives a wall does work on the wall's density, which
+           is
            not evolved: their accounts need not close, but the fluid cannot gain more than a layer's work. */
         if (kind == SPH_WALL_GHOST)
             close_to(gained, t.wall_work, 1e-3 * t.wall_work);

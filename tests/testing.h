@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* testing.h: what the tests share: cmocka, simulations in guarded arenas, and a port that works chunks off in a shuffled
-   order under changing thread numbers. */
+/* testing.h: what the tests share: cmocka, simulations in guarded arenas, and a port that works chunks off in a
+   shuffled order under changing thread numbers. */
 #ifndef SPH_TESTING_H
 #define SPH_TESTING_H
 
@@ -142,7 +142,8 @@ static UNUSED sph_config periodic_config(double edge, double dx)
 }
 
 /* n^DIM particles of a jittered lattice in [0, n dx]^DIM with random speeds and densities */
-static UNUSED void random_cloud(sph_sim *sim, uint32_t set, uint32_t n, double dx, double jitter, double speed, double drho)
+static UNUSED void random_cloud(sph_sim *sim, uint32_t set, uint32_t n, double dx, double jitter, double speed,
+                                double drho)
 {
     sph_rng rng;
     sph_rng_seed(&rng, 99, n);
@@ -166,7 +167,8 @@ typedef struct shuffle {
     uint32_t threads, calls;
 } shuffle;
 
-static UNUSED void shuffled(void *ctx, void (*fn)(void *arg, uint32_t chunk, uint32_t thread), void *arg, uint32_t chunks)
+static UNUSED void shuffled(void *ctx, void (*fn)(void *arg, uint32_t chunk, uint32_t thread), void *arg,
+                            uint32_t chunks)
 {
     shuffle *s = ctx;
     s->calls++;

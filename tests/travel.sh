@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# travel.sh: dumps go from other machines to this one and back. Half of a case runs on one, the rest on the other; the hash
-# must be that of tests/golden.csv, which no dump interrupted, and both must write the same bytes. Big-endian, 32-bit, all six
-# builds; cases with books, walls that move, a gate and Runge-Kutta. Writes BUILD/travel.csv.
+# travel.sh: dumps go from other machines to this one and back. Half of a case runs on one, the rest on the other; the
+# hash must be that of tests/golden.csv, which no dump interrupted, and both must write the same bytes. Big-endian,
+# 32-bit, all six builds; cases with books, walls that move, a gate and Runge-Kutta. Writes BUILD/travel.csv.
 #   sh tests/travel.sh [NAME...]      machines of port/targets.txt (default: s390x ppc64 i686 armhf)
 #   STRICT=1    a machine without tools counts as a failure           BUILDS="1f 2f"   these builds only
 set -u
@@ -43,7 +43,8 @@ trips_of() {
     got=$(on $home "$2" resume "$3" "$dir/$1.dump")
     [ "$got" = "$want" ] || { wrong=1; echo "  $1 $2 $3: written there, gone on here: $got, not $want" >&2; }
     got=$(on "$1" "$2" resume "$3" "$dir/home.dump")
-    [ "$got" = "$want" ] || { wrong=$((wrong + 1)); echo "  $1 $2 $3: written here, gone on there: $got, not $want" >&2; }
+    [ "$got" = "$want" ] ||
+        { wrong=$((wrong + 1)); echo "  $1 $2 $3: written here, gone on there: $got, not $want" >&2; }
     cmp "$dir/home.dump" "$dir/$1.dump" >&2 || wrong=$((wrong + 1))
     return $wrong
 }
@@ -60,7 +61,8 @@ for m in $list; do
             if trips_of "$m" $b "$c"; then fine=$((fine + 1)); else bad=$((bad + 1)); fi
         done
         n=$(echo $cases | wc -w)
-        echo "${m}_${b}_there_and_back,$fine,cases,=$n,$([ $fine -eq "$n" ] && echo yes || echo no)" >>"$BUILD/travel.csv"
+        [ $fine -eq "$n" ] && ok=yes || ok=no
+        echo "${m}_${b}_there_and_back,$fine,cases,=$n,$ok" >>"$BUILD/travel.csv"
     done
 done
 rm -f "$dir"/*.dump

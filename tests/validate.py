@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-"""validate.py: runs every case, of water and of solids, and holds them against experiments, finite elements, exact solutions.
+"""validate.py: runs every case, of water and of solids, and holds them against experiments, finite elements, exact
+solutions.
 
 usage: validate.py [--quick] [--jobs N] [--only WORD] [--keep] [--tool build/sph]
-Writes build/validate.csv (name,value,unit,target,ok) and prints the same as a table. Exit code 1 if a row with a target misses it.
+Writes build/validate.csv (name,value,unit,target,ok) and prints the same as a table. Exit code 1 if a row with a target
+misses it.
 """
 import sys
 

@@ -3,9 +3,9 @@
 """validate_solids.py: runs the cases of solids and holds them against Gray (2001), finite elements and exact solutions.
 
 usage: validate_solids.py [--quick] [--jobs N] [--only WORD] [--keep] [--tool build/sph]
-Writes build/validate_solids.csv and prints the same as a table; validation.py says more. Each group of cases is a function in
-GROUPS that takes add(name, unit, target, runs, figure). Long studies: --only WORD --keep goes on where an earlier call was ended.
-Times are in cm/c0 and lengths in cm unless a row says otherwise.
+Writes build/validate_solids.csv and prints the same as a table; validation.py says more. Each group of cases is a
+function in GROUPS that takes add(name, unit, target, runs, figure). Long studies: --only WORD --keep goes on where an
+earlier call was ended. Times are in cm/c0 and lengths in cm unless a row says otherwise.
 """
 import csv, io, math, os, subprocess, sys
 
@@ -57,17 +57,20 @@ def plates(quick, add):
     long = Run("plate", n=n, speed=0.01, cycles=1.2 if quick else 3.4, every=20)
     add(f"G15 H 2 mu 0.22 n={n} amplitude loss, {'two swings' if quick else 'three cycles'}", "%", 5.0, [long],
         lambda r: 100 * (1 - swings(r)[-2 if len(swings(r)) > 2 else -1] / swings(r)[0]))
-    add(f"G15 H 2 mu 0.22 n={n} drift of the energy", "%", 0.1, [long], lambda r: 100 * max(abs(e - 1) for e in r.col("energy")))
+    add(f"G15 H 2 mu 0.22 n={n} drift of the energy", "%", 0.1, [long],
+        lambda r: 100 * max(abs(e - 1) for e in r.col("energy")))
     if not quick:
         ten = Run("plate", n=8, speed=0.001, cycles=10.5, every=50, precision="double")
         add("G15 n=8 double drift of the energy over ten periods, no viscosity", "%", 0.1, [ten],
             lambda r: 100 * max(abs(e - 1) for e in r.col("energy")))
     # Gray's own settings: without artificial stress the plate breaks at the clamp
-    own = dict(form="updated", kernel="cubic", h=1.5, alpha=0.5, integrator="predictor_corrector", cfl=0.25, n=10, mu=0.6, speed=0.05,
+    own = dict(form="updated", kernel="cubic", h=1.5, alpha=0.5, integrator="predictor_corrector", cfl=0.25, n=10,
+               mu=0.6, speed=0.05,
                clamp="surfaces", cycles=0.8, every=10)
     for repulsion in ("none", "principal"):
         run = Run("plate", repulsion=repulsion, **own)
-        add(f"G15 thesis's settings, artificial stress {repulsion}: closest pair", "dx", None, [run], lambda r: min(r.col("closest")))
+        add(f"G15 thesis's settings, artificial stress {repulsion}: closest pair", "dx", None, [run],
+            lambda r: min(r.col("closest")))
         add(f"G15 thesis's settings, artificial stress {repulsion}: period", "cm/c0", None, [run],
             lambda r: period(r) if [x for x in zero_crossings(r.col("time"), r.col("tip")) if x > 1] else float("nan"))
     # G16: plastic plate
@@ -75,19 +78,23 @@ def plates(quick, add):
     plastic = Run("plate", n=10, mu=0.6, speed=0.05, **{"yield": 0.06}, cycles=1.3, every=10)
     printed = Run("plate", n=10, mu=0.6, speed=0.05, **{"yield": 0.06}, printed="yes", cycles=1.3, every=10)
     for name, run in (("plastic", plastic), ("plastic as printed (5.14, 5.15)", printed)):
-        add(f"G16 first amplitude, {name} over elastic", "ratio", (">=", 1.0) if run is printed else None, [run, elastic],
+        add(f"G16 first amplitude, {name} over elastic", "ratio", (">=", 1.0) if run is printed else None,
+            [run, elastic],
             lambda a, b: swings(a)[0] / swings(b)[0])
         add(f"G16 time of the first return to the mid-line, {name} over elastic", "ratio", (">=", 1.0), [run, elastic],
             lambda a, b: first_return(a) / first_return(b))
-    add("G16 permanent upward set, as printed: mean of the tip's extremes after the first", "cm", (">=", 0.01), [printed],
+    add("G16 permanent upward set, as printed: mean of the tip's extremes after the first", "cm", (">=", 0.01),
+        [printed],
         lambda r: 0.5 * (max(late(r)) + min(late(r))))
     rough = dict(own, clamp="ideal", cycles=0.6, repulsion="principal", printed="yes")
     soft, stiff = Run("plate", **{"yield": 0.06}, **rough), Run("plate", **rough)
-    add("G16 thesis's settings: first amplitude, plastic over elastic", "ratio", None, [soft, stiff], lambda a, b: swings(a)[0] / swings(b)[0])
+    add("G16 thesis's settings: first amplitude, plastic over elastic", "ratio", None, [soft, stiff],
+        lambda a, b: swings(a)[0] / swings(b)[0])
     add("G16 permanent upward set: mean of the tip's extremes after the first", "cm", (">=", 0.01), [plastic],
         lambda r: 0.5 * (max(late(r)) + min(late(r))))
     add("G16 the same of the elastic plate", "cm", None, [elastic], lambda r: 0.5 * (max(late(r)) + min(late(r))))
-    add("G16 plastic work over energy at the start", "%", None, [plastic], lambda r: 100 * r.col("plastic")[-1] / r.col("kinetic")[0])
+    add("G16 plastic work over energy at the start", "%", None, [plastic],
+        lambda r: 100 * r.col("plastic")[-1] / r.col("kinetic")[0])
     add("G16 energy left over: books", "%", 1.0, [plastic], lambda r: 100 * abs(r.col("energy")[-1] - 1))
 
 
@@ -173,12 +180,13 @@ GROUPS.append(g12)
 # - compression: at h 1.0 the square lattice slips and the face-centred one is stable; at h 1.5 both break up, into pairs.
 
 def in_fours(run):
-    """Share of the particles that stand in clumps of just four, by links shorter than the spacing of the lattice they began
-    on: the sides of clumps are shorter, the gaps between clumps longer."""
+    """Share of the particles that stand in clumps of just four, by links shorter than the spacing of the lattice they
+    began on: the sides of clumps are shorter, the gaps between clumps longer."""
     name = run.prefix() + ".particles.csv"
     subprocess.run([run.tool, "export", run.dumps()[-1], f"out={name}"], check=True, stdout=subprocess.DEVNULL)
     with open(name) as f:
-        place = [(float(r["x_m"]), float(r["y_m"])) for r in csv.DictReader(line for line in f if not line.startswith("#"))]
+        place = [(float(r["x_m"]), float(r["y_m"])) for r in csv.DictReader(line for line in f
+            if not line.startswith("#"))]
     side, dx2, clump = 1.0, 1 / len(place), list(range(len(place)))
 
     def root(i):
@@ -209,8 +217,8 @@ def g13(quick, add):
     def tension(factor, lattice, h, **more):
         return Run("lattice_box", **{"lambda": factor}, lattice=lattice, h=h, **more, **common)
 
-    # compression; "nearest": the smallest distance of two particles, "hole": the largest of a place from a particle (square
-    # lattice 0.707, face centred 0.55 at the places looked at)
+    # compression; "nearest": the smallest distance of two particles, "hole": the largest of a place from a particle
+    # (square lattice 0.707, face centred 0.55 at the places looked at)
     for h in (1.0, 1.5):
         run = Run("lattice_box", rho=1.1, h=h, **common)
         target = (">=", 0.9) if h == 1 else None
@@ -222,7 +230,8 @@ def g13(quick, add):
         add(f"G13 lambda {factor} h 1.0 epsilon 0 nearest", "dx", None, [run], last("nearest_min"))
         target = (">=", 0.5) if factor == 0.95 else None
         add(f"G13 lambda {factor} h 1.0 epsilon 0 in fours", "of the particles", target, [run], in_fours)
-        add(f"G13 lambda {factor} h 1.0 epsilon 0 hole", "dx", (">=", 1.2) if factor == 0.9 else None, [run], last("hole"))
+        add(f"G13 lambda {factor} h 1.0 epsilon 0 hole", "dx", (">=", 1.2) if factor == 0.9 else None, [run],
+            last("hole"))
         for lattice, h in (("square", 1.0), ("square", 1.5), ("shifted_x", 1.5)):
             if factor == 0.99 and h == 1.5:
                 continue
@@ -230,7 +239,8 @@ def g13(quick, add):
             name = f"G13 lambda {factor} {lattice} h {h} epsilon 0.3"
             add(f"{name} nearest", "dx", (">=", 0.9), [run], last("nearest_min"))
             add(f"{name} hole", "dx", ("<=", 0.9), [run], last("hole"))
-            add(f"{name} stress kept", "of 1 - lambda", None, [run], lambda r, f=factor: r.col("stress_mean")[-1] / (1 - f))
+            add(f"{name} stress kept", "of 1 - lambda", None, [run],
+                lambda r, f=factor: r.col("stress_mean")[-1] / (1 - f))
     for name, more in (("components epsilon 0.3", {"repulsion": "components"}),
                        ("corrected epsilon 0", {"form": "corrected"}), ("total epsilon 0", {"form": "total"})):
         run = tension(0.9, "square", 1.0, **more)
@@ -242,7 +252,8 @@ def g13(quick, add):
 GROUPS.append(g13)
 
 
-# ---- G23: frequencies and growth rates of single waves against the dispersion relation (Gray 2001, 5.6.2, appendix B) ----
+# ---- G23: frequencies and growth rates of single waves against the dispersion relation (Gray 2001, 5.6.2, appendix B)
+# ----
 
 SIDE, SPAN = 12, 4  # spacings of the box; rows of history between the amplitudes that are compared
 
@@ -250,14 +261,15 @@ SIDE, SPAN = 12, 4  # spacings of the box; rows of history between the amplitude
 def wave_run(lattice, h, state, waves, direction):
     """state: rho, lambda, epsilon. The artificial stress changes with the wave, as it does in the relation."""
     rho, factor, epsilon = state
-    return Run("lattice_box", lattice=lattice, h=h, rho=rho, **{"lambda": factor}, epsilon=epsilon, repulsion="principal",
+    return Run("lattice_box", lattice=lattice, h=h, rho=rho, **{"lambda": factor}, epsilon=epsilon,
+               repulsion="principal",
                waves_x=waves[0], waves_y=waves[1], direction=direction, n=SIDE, side=SIDE, noise=0, wave=1e-6,
                viscosity="inviscid", precision="double", dt=0.0078125, every=0.125, end=8)
 
 
 def measured_waves(along, over):
-    """omega^2 of the two waves of one wave vector, from a run that begins longitudinal and one that begins transverse: the
-    amplitudes obey u(t + d) + u(t - d) = 2 C u(t), where C has eigenvalues cos(omega d)."""
+    """omega^2 of the two waves of one wave vector, from a run that begins longitudinal and one that begins transverse:
+    the amplitudes obey u(t + d) + u(t - d) = 2 C u(t), where C has eigenvalues cos(omega d)."""
     bu, uu = [[0, 0], [0, 0]], [[0, 0], [0, 0]]
     for run in (along, over):
         u = list(zip(run.col("along"), run.col("across")))
@@ -272,7 +284,8 @@ def measured_waves(along, over):
     mean, half = 0.5 * (c[0][0] + c[1][1]), 0.5 * (c[0][0] - c[1][1])
     root = math.sqrt(half * half + c[0][1] * c[1][0])
     d = SPAN * (along.col("time")[-1] - along.col("time")[0]) / (len(along.col("time")) - 1)
-    return sorted((math.acos(x) / d) ** 2 if abs(x) <= 1 else -(math.acosh(x) / d) ** 2 for x in (mean - root, mean + root))
+    return sorted((math.acos(x) / d) ** 2 if abs(x) <= 1 else -(math.acosh(x) / d) ** 2
+                  for x in (mean - root, mean + root))
 
 
 def theory_of_waves(tool, lattice, h, state, waves):
@@ -280,7 +293,8 @@ def theory_of_waves(tool, lattice, h, state, waves):
     kx, ky = 2 * waves[0] / SIDE, 2 * waves[1] / SIDE
     options = {"lattice": lattice, "h": h, "rho": rho, "c": math.sqrt(factor), "pressure": factor * rho - 1, "mu": 0.22,
                "epsilon": epsilon, "angle": math.degrees(math.atan2(ky, kx)), "kmax": math.hypot(kx, ky), "points": 2}
-    text = subprocess.run([tool, "dispersion", "curve"] + [f"{k}={v}" for k, v in options.items()], stdout=subprocess.PIPE,
+    text = subprocess.run([tool, "dispersion", "curve"] + [f"{k}={v}" for k, v in options.items()],
+                          stdout=subprocess.PIPE,
                           text=True, check=True).stdout
     rows = list(csv.DictReader(line for line in io.StringIO(text) if not line.startswith("#")))
     return sorted((float(rows[-1]["omega2_long"]), float(rows[-1]["omega2_trans"])))
@@ -321,7 +335,8 @@ def ring(run, column, microseconds):
 
 def pieces(run, dump=-1, link=1.5, least=1):
     """Pieces of a dump, by default the last."""
-    text = subprocess.run([run.tool, "fragments", run.dumps()[dump], f"link={link}", f"least={least}"], stdout=subprocess.PIPE,
+    text = subprocess.run([run.tool, "fragments", run.dumps()[dump], f"link={link}", f"least={least}"],
+                          stdout=subprocess.PIPE,
                           text=True, check=True).stdout
     return int(text.split("pieces: ")[1].split(",")[0])
 
@@ -331,8 +346,8 @@ def g14(quick, add):
     gray = [r for r in table if r["method"] == "SPH"]
     toody = [r for r in table if r["method"] == "TOODY"]
     common = {"every": 1.70358, "dump": "picture"}  # 20 us
-    # ours; alpha 0.1 is the least that keeps dp 0.1 in order (alpha 0 tears at 1050 us). The finest that is run is held to
-    # the targets: below the thesis's distance, or to what is printed where that is 0
+    # ours; alpha 0.1 is the least that keeps dp 0.1 in order (alpha 0 tears at 1050 us). The finest that is run is held
+    # to the targets: below the thesis's distance, or to what is printed where that is 0
     sizes = (0.2,) if quick else (0.2, 0.1, 0.05)
     for dp in sizes:
         run = Run("rings", dp=dp, cfl=0.4 if dp < 0.1 else 0.25, **common)
@@ -341,24 +356,28 @@ def g14(quick, add):
                 own = abs(float(g[column]) - float(t[column]))
                 target = ("<", round(own, 2)) if own > 0 else 0.05
                 us = float(t["time_us"])
-                add(f"G14 dp {dp} {column} at {us:g} us against TOODY's {t[column]}", "cm", target if dp == sizes[-1] else None,
+                add(f"G14 dp {dp} {column} at {us:g} us against TOODY's {t[column]}", "cm", target if dp == sizes[-1]
+                    else None,
                     [run], lambda r, c=column, us=us, ref=float(t[column]): abs(ring(r, c, us) - ref))
         add(f"G14 dp {dp} pieces at the end", "-", 2, [run], lambda r: pieces(r, link=2))
         add(f"G14 dp {dp} smallest distance", "dp", None, [run], lambda r: min(r.col("closest")))
         add(f"G14 dp {dp} share of the kinetic energy in the rebound", "of the start", None, [run],
             lambda r: r.col("kinetic")[-1] / r.col("kinetic")[0])
-        add(f"G14 dp {dp} speed of the rebound", "of the start", None, [run], lambda r: -r.col("speed_left")[-1] / r.col("speed_left")[0])
+        add(f"G14 dp {dp} speed of the rebound", "of the start", None, [run],
+            lambda r: -r.col("speed_left")[-1] / r.col("speed_left")[0])
     dp = 0.2 if quick else 0.1
     for repulsion, alpha in (("none", 0.5), ("principal", 0.5), ("principal", 0)):
         run = Run("rings", dp=dp, alpha=alpha, repulsion=repulsion, **CASE_OF_GRAY, **common)
         tag = f"G14 thesis's settings, epsilon {0.3 if repulsion == 'principal' else 0} alpha {alpha} dp {dp}"
         add(f"{tag} pieces at the end", "-", None, [run], lambda r: pieces(r, link=2))
         add(f"{tag} smallest distance", "dp", None, [run], lambda r: min(r.col("closest")))
-        add(f"{tag} speed of the rebound", "of the start", None, [run], lambda r: -r.col("speed_left")[-1] / r.col("speed_left")[0])
+        add(f"{tag} speed of the rebound", "of the start", None, [run],
+            lambda r: -r.col("speed_left")[-1] / r.col("speed_left")[0])
         for g in gray[1:] if repulsion != "none" and alpha > 0 else []:
             for column in ("width", "height", "separation"):
                 us = float(g["time_us"])
-                add(f"{tag} {column} at {us:g} us; thesis {g[column]}", "cm", None, [run], lambda r, c=column, us=us: ring(r, c, us))
+                add(f"{tag} {column} at {us:g} us; thesis {g[column]}", "cm", None, [run],
+                    lambda r, c=column, us=us: ring(r, c, us))
 
 
 # ---- G17: a plate pulled apart (Gray 2001, 6.4.1) ----
@@ -385,9 +404,12 @@ def g17_of_size(n, quick, add):
     add(f"G17 n={n} epsilon 0 nearest pair falls below dp/2; thesis: fractures from 110 to 120", "cm/c0", 120, [bare],
         lambda r: first_time(r, lambda i: r.col("closest")[i] < 0.5))
     add(f"G17 n={n} epsilon 0 pull falls below half of epsilon 0.3's", "cm/c0", 120, [bare, kept],
-        lambda a, b: first_time(a, lambda i: a.col("pull")[i] < 0.5 * interpolate(b.col("time"), b.col("pull"), a.col("time")[i])))
-    add(f"G17 n={n} epsilon 0 smallest distance at 5 % strain", "dp", None, [bare], lambda r: at_strain(r, "closest", 0.05))
-    add(f"G17 n={n} epsilon 0.3 smallest distance at 14.5 % strain", "dp", (">=", 0.5), [kept], lambda r: at_strain(r, "closest", 0.145))
+        lambda a, b: first_time(a, lambda i: a.col("pull")[i] < 0.5 * interpolate(b.col("time"), b.col("pull"),
+            a.col("time")[i])))
+    add(f"G17 n={n} epsilon 0 smallest distance at 5 % strain", "dp", None, [bare],
+        lambda r: at_strain(r, "closest", 0.05))
+    add(f"G17 n={n} epsilon 0.3 smallest distance at 14.5 % strain", "dp", (">=", 0.5), [kept],
+        lambda r: at_strain(r, "closest", 0.145))
     add(f"G17 n={n} epsilon 0.3 pieces at 14.5 % strain", "-", 1, [kept],
         lambda r: pieces(r, dump=next(i for i, e in enumerate(r.col("strain")) if e >= 0.145), link=2))
     runs = [("thesis's settings, epsilon 0.3", kept)]
@@ -409,8 +431,8 @@ TIPS = {}  # what tip_speeds found, by the run's name
 
 
 def tip_speeds(run):
-    """Speeds of the two tips of the crack that is first broken (D > 0.99) through: least squares through where either tip is
-    whenever it has moved on. A tip is the end along y of the broken particles that hang together, by reference places."""
+    """Speeds of the two tips of the crack that is first broken (D > 0.99) through: least squares through where either
+    tip is whenever it has moved on. A tip is the end along y of the broken particles that hang together, by reference places."""
     if run.name in TIPS:
         return TIPS[run.name]
     history, dumps = run.col("time"), run.dumps()
@@ -418,7 +440,8 @@ def tip_speeds(run):
     born, place = {}, {}
     table = run.prefix() + "_dump.csv"
     for k in [0] + list(range(first, len(dumps))):
-        subprocess.run([run.tool, "export", dumps[k], f"out={table}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+        subprocess.run([run.tool, "export", dumps[k], f"out={table}"], stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL, check=True)
         with open(table) as f:
             for r in csv.DictReader(line for line in f if not line.startswith("#")):
                 if k == 0:
@@ -472,7 +495,8 @@ def g18(quick, add):
         add(f"{tag} most fragments", "-", None, runs, lambda *rr, c=count: max(c(r) for r in rr))
         add(f"{tag} mean of the largest pull", "K", None, runs, lambda *rr: mean(max(r.col("pull")) for r in rr))
     for n in (20,) if quick else (20, 40):
-        runs = [Run("brittle", n=n, seed=s, form="updated", kernel="cubic", duration=30, end=28, dump="picture", every=0.1)
+        runs = [Run("brittle", n=n, seed=s, form="updated", kernel="cubic", duration=30, end=28, dump="picture",
+                    every=0.1)
                 for s in (seeds if n == 20 else (1, 2))]
         tag = f"G18 n={n} speed of the tips, {len(runs)} seeds"
         speeds = lambda rr: [v for r in rr for v in tip_speeds(r)]
@@ -487,8 +511,9 @@ def g18(quick, add):
 GROUPS += [g14, g17, g18]
 
 
-# ---- G19: a hole in a stretched block (Gray 2001 section 6.5). The elastic forms are chosen by convergence: total and corrected
-# agree to three digits, updated is weak at free surfaces. Gray's hole has steps; its re-entrant corners are what he calls noise.
+# ---- G19: a hole in a stretched block (Gray 2001 section 6.5). The elastic forms are chosen by convergence: total and
+# corrected agree to three digits, updated is weak at free surfaces. Gray's hole has steps; its re-entrant corners are
+# what he calls noise.
 
 def rim(run):
     """Measured and exact (sxx + syy)/p1 on the rim, every 5 degrees."""
@@ -499,7 +524,8 @@ def holes(quick, add):
     top = max(float(r["sum"]) for r in read_table("fe_hole.csv"))
 
     def rows(tag, target, run):
-        add(f"G19 {tag} peak on the rim", "% off the exact 3.0546", target, [run], lambda r: 100 * abs(r.col("peak_rim")[-1] / top - 1))
+        add(f"G19 {tag} peak on the rim", "% off the exact 3.0546", target, [run],
+            lambda r: 100 * abs(r.col("peak_rim")[-1] / top - 1))
         add(f"G19 {tag} curve over the angle, rms", "p1", None, [run],
             lambda r: math.sqrt(sum((a - b) ** 2 for a, b in rim(r)) / len(rim(r))))
         add(f"G19 {tag} largest of a particle (Gray: 3.8)", "p1", None, [run], lambda r: r.col("peak_particle")[-1])
@@ -547,8 +573,9 @@ def chambers(quick, add):
 GROUPS.append(chambers)
 
 
-# ---- G20: a block with flaws is drawn until it breaks (section 7.2). Times are displacement of an end over V_f, so that how the
-# ends come to speed does not count. Half of Gray's particles across: ten seeds are about ten minutes of a core.
+# ---- G20: a block with flaws is drawn until it breaks (section 7.2). Times are displacement of an end over V_f, so
+# that how the ends come to speed does not count. Half of Gray's particles across: ten seeds are about ten minutes of a
+# core.
 
 def first(run, count=1):
     """Row of the history in which so many particles are fully damaged first; the last row if none is."""
@@ -580,9 +607,11 @@ def blocks(quick, add):
         add(f"G20 seeds in which pressure ({k}) breaks the hole earlier", f"of {n}", None, runs["hole"] + runs[k],
             lambda *r: sum(broken_at(g) < broken_at(h) for h, g in zip(r[:n], r[n:])))
     for k in ("hole", "gas", "load"):
-        add(f"G20 {k}: seeds broken first within three particles of the rim", f"of {n}", (">=", n) if k == "hole" else None, runs[k],
+        add(f"G20 {k}: seeds broken first within three particles of the rim", f"of {n}", (">=", n) if k == "hole"
+            else None, runs[k],
             lambda *r: sum(x.col("full_from_rim")[first(x)] < 0.3 for x in r))
-        add(f"G20 {k}: seeds broken first within 30 degrees of top or bottom", f"of {n}", (">=", n) if k == "hole" else None, runs[k],
+        add(f"G20 {k}: seeds broken first within 30 degrees of top or bottom", f"of {n}", (">=", n) if k == "hole"
+            else None, runs[k],
             lambda *r: sum(abs(x.col("full_x")[first(x)]) < 0.3 for x in r))
     if not quick:
         for k, end, gray in kinds[:2]:
@@ -596,8 +625,9 @@ def blocks(quick, add):
 GROUPS.append(blocks)
 
 
-# ---- G22: faults over a magma chamber (section 7.4, figures 7.6 to 7.9). Listed: how many particles are fully damaged, and where.
-# A run whose roof is blown out ends early; its last row counts. Maps: sph render PREFIX_0030.sph field=damage out=map.png
+# ---- G22: faults over a magma chamber (section 7.4, figures 7.6 to 7.9). Listed: how many particles are fully damaged,
+# and where. A run whose roof is blown out ends early; its last row counts. Maps: sph render PREFIX_0030.sph
+# field=damage out=map.png
 
 def calderas(quick, add):
     gray = dict(form="updated", kernel="cubic", alpha=0.5, repulsion="principal", damping=1, cfl=0.3, printed="yes")
@@ -606,7 +636,8 @@ def calderas(quick, add):
              ("7.8, strain 1.3e-3", dict(speed=5e-5)), ("7.9, higher chamber", dict(speed=5e-6, high=1.12)))
     for name, options in cases:
         run = Run("caldera", spacing=0.1 if quick else 0.07, frames=40, **options)
-        for column, what in (("full_surface", "at the surface over the middle"), ("full_left", "in the roof on the left"),
+        for column, what in (("full_surface", "at the surface over the middle"),
+                             ("full_left", "in the roof on the left"),
                              ("full_right", "in the roof on the right"), ("full_below", "below the chamber's middle")):
             add(f"G22 {name}: fully damaged {what}", "particles", None, [run], lambda r, c=column: r.col(c)[-1])
         add(f"G22 {name}: mean damage when the pressure rises", "-", None, [run],

@@ -3,8 +3,8 @@
 """validate_water.py: runs the water cases and holds them against experiments, volume-of-fluid and exact solutions.
 
 usage: validate_water.py [--quick] [--jobs N] [--only WORD] [--keep] [--tool build/sph]
-Writes build/validate_water.csv (name,value,unit,target,ok) and prints the same as a table; validation.py says more. Exit code 1
-if a row with a target misses it.
+Writes build/validate_water.csv (name,value,unit,target,ok) and prints the same as a table; validation.py says more.
+Exit code 1 if a row with a target misses it.
 """
 import math, sys
 
@@ -18,8 +18,8 @@ def cases(quick):
     def add(name, unit, target, runs, figure):
         rows.append((name, unit, target, runs, figure))
 
-    # G1: hydrostatic column, every wall kind. The cubic spline's own quadrature error is 2.2 % at h 1.2 (README, findings),
-    # so the target is held against the quintic at the same h; ghosts that hold p = 0 are listed without one.
+    # G1: hydrostatic column, every wall kind. The cubic spline's own quadrature error is 2.2 % at h 1.2 (README,
+    # findings), so the target is held against the quintic at the same h; ghosts that hold p = 0 are listed without one.
     walls = ("adami", "ghost_compressible", "ghost", "lennard_jones", "kernel_force", "monaghan_kos")
     for n in (50,) if quick else (50, 500):
         for wall in walls:

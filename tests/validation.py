@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 """validation.py: what the validations share: runs of the tool, small figures of their histories, and the table.
 
-Each run is one command of the tool, printed with its figure, so that anybody can repeat it. Runs go in parallel, with progress
-and the time left; a row says what it rests on. A row is (name, unit, target or None, runs, figure): the figure is called with
-the finished runs and returns a number; a target is a number that it may not exceed, or a pair such as (">=", 3). References are in
-tests/refdata/, with their sources in the headers.
+Each run is one command of the tool, printed with its figure, so that anybody can repeat it. Runs go in parallel, with
+progress and the time left; a row says what it rests on. A row is (name, unit, target or None, runs, figure): the figure
+is called with the finished runs and returns a number; a target is a number that it may not exceed, or a pair such as
+(">=", 3). References are in tests/refdata/, with their sources in the headers.
 """
 import argparse, csv, glob, math, os, subprocess, sys, time
 from concurrent.futures import ThreadPoolExecutor

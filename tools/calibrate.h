@@ -3,8 +3,8 @@
 #ifndef CALIBRATE_H
 #define CALIBRATE_H
 
-/* Seconds of 2^24 pair evaluations in float (distance, a polynomial of compact support, two sums) over 1,024 points in eight
-   lanes: the shortest of five runs. Seconds over this number can be compared between machines. */
+/* Seconds of 2^24 pair evaluations in float (distance, a polynomial of compact support, two sums) over 1,024 points in
+   eight lanes: the shortest of five runs. Seconds over this number can be compared between machines. */
 double calibrate(void);
 
 #endif

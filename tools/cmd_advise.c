@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_advise.c: sph advise. The cheapest way known to run a scene with a wanted error, out of the runs that the tables of
-   tests/lab hold. It chooses between runs that were made; it never extrapolates. */
+/* cmd_advise.c: sph advise. The cheapest way known to run a scene with a wanted error, out of the runs that the tables
+   of tests/lab hold. It chooses between runs that were made; it never extrapolates. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -236,7 +236,8 @@ static int not_reached(const advice *a, const choice *best, uint32_t mask)
     printf("not known   no run in the tables reaches %g %s\nbest known  ", a->wanted, a->unit);
     put_command(a, best);
     put_basis(a, best, mask);
-    printf("missing     a factor of %.3g; beyond this run nothing is known, and nothing is extrapolated\n", e / a->wanted);
+    printf("missing     a factor of %.3g; beyond this run nothing is known, and nothing is extrapolated\n",
+           e / a->wanted);
     return HOST_NO;
 }
 
@@ -245,7 +246,8 @@ static int answer(const advice *a, uint32_t mask)
 {
     const choice *best = most_accurate(a, mask, -1), *c = cheapest(a, mask, a->wanted);
     if (!best) {
-        printf("not known   no run was measured %s\n", mask & (mask - 1) ? "in every one of these studies" : "to its end");
+        printf("not known   no run was measured %s\n",
+               mask & (mask - 1) ? "in every one of these studies" : "to its end");
         return HOST_NO;
     }
     if (!c)
@@ -363,7 +365,8 @@ static bool take_options(advice *a, int argc, char **argv)
     if (!parse_error(a, text))
         return false;
     a->precision = 2;
-    if ((text = host_option(argc, argv, "precision")) && (a->precision = host_choice("precision", text, precisions)) < 0)
+    if ((text = host_option(argc, argv, "precision")) &&
+        (a->precision = host_choice("precision", text, precisions)) < 0)
         return false;
     a->cost = STUDY_INSTRUCTIONS;
     if ((text = host_option(argc, argv, "cost"))) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_dispersion.c: sph dispersion. Gray's coefficients of plane waves on lattices of particles as his tables B.3 to B.5,
-   and omega(k) of the discrete elastic solid against the exact one. */
+/* cmd_dispersion.c: sph dispersion. Gray's coefficients of plane waves on lattices of particles as his tables B.3 to
+   B.5, and omega(k) of the discrete elastic solid against the exact one. */
 #include "commands.h"
 #include "dispersion.h"
 #include "host.h"

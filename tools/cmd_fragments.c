@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_fragments.c: sph fragments. The pieces into which solids have broken: particles that still bear tension, linked when
-   near each other; their sizes, and Grady and Kipp's density beside them. */
+/* cmd_fragments.c: sph fragments. The pieces into which solids have broken: particles that still bear tension, linked
+   when near each other; their sizes, and Grady and Kipp's density beside them. */
 #include "commands.h"
 #include "dumpfile.h"
 #include "gradykipp.h"
@@ -226,19 +226,22 @@ static void print_pieces(const dump_file *d, const body *b, const options *o, co
 {
     const uint32_t shown = p->n < 20 ? p->n : 20;
     double length = 0, diameter = 0;
-    printf("%s: t = %.6g s, solid particles: %u, pieces: %u, broken particles: %u (%.2f %% of the mass)\n", d->name, d->time,
+    printf("%s: t = %.6g s, solid particles: %u, pieces: %u, broken particles: %u (%.2f %% of the mass)\n", d->name,
+           d->time,
            b->n, p->n, p->broken, p->broken ? 100 * p->broken_mass / b->mass : 0);
     if (!dump_has_field(d, "damage"))
         printf("no array damage: nothing counts as broken\n");
     if (p->n)
-        printf("%5s %9s %8s %4s %12s %8s %11s %11s %11s %11s %11s\n", "piece", "particles", "first id", "set", "mass (kg)",
+        printf("%5s %9s %8s %4s %12s %8s %11s %11s %11s %11s %11s\n", "piece", "particles", "first id", "set",
+               "mass (kg)",
                "share", "length (m)", "diameter", "edge x", "edge y", "edge z");
     for (uint32_t i = 0; i < p->n; i++) {
         const piece *q = &p->list[i];
         length += q->length / p->n;
         diameter += q->diameter / p->n;
         if (i < shown)
-            printf("%5u %9u %8u %4u %12.6g %7.3f%% %11.5g %11.5g %11.5g %11.5g %11.5g\n", i + 1, q->particles, q->first_id,
+            printf("%5u %9u %8u %4u %12.6g %7.3f%% %11.5g %11.5g %11.5g %11.5g %11.5g\n", i + 1, q->particles,
+                   q->first_id,
                    q->set, q->mass, 100 * q->mass / b->mass, q->length, q->diameter, q->edge[0], q->edge[1], q->edge[2]);
     }
     if (shown < p->n)

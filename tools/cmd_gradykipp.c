@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_gradykipp.c: sph gradykipp. When a brittle body breaks at a constant strain rate, and into pieces of what size. */
+/* cmd_gradykipp.c: sph gradykipp. When a brittle body breaks at a constant strain rate, and into pieces of what
+   size. */
 #include "commands.h"
 #include "gradykipp.h"
 #include "host.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_profile.c: sph profile. Fields of a dump along a line or an ellipse, and the largest value near it: stress around a
-   hole, the shape of a bent plate. */
+/* cmd_profile.c: sph profile. Fields of a dump along a line or an ellipse, and the largest value near it: stress around
+   a hole, the shape of a bent plate. */
 #include "commands.h"
 #include "dumpfile.h"
 #include "host.h"
@@ -86,7 +86,8 @@ static double displacement(const dump_file *now, uint32_t i, const cloud *c, uin
 static int displacement_axis(const char *field, uint32_t dim)
 {
     const char *axis = field + 13;
-    if (strncmp(field, "displacement_", 13) != 0 || *axis < 'x' || *axis > 'z' || axis[1] || (uint32_t)(*axis - 'x') >= dim)
+    if (strncmp(field, "displacement_", 13) != 0 || *axis < 'x' || *axis > 'z' || axis[1] ||
+        (uint32_t)(*axis - 'x') >= dim)
         return -1;
     return *axis - 'x';
 }
@@ -207,7 +208,8 @@ static void print_place(const cloud *c, const double x[3])
 }
 
 /* largest and smallest of the samples and of the particles near the curve */
-static void print_extremes(const options *o, const cloud *c, const char *name, const double *value, const double (*x)[3],
+static void print_extremes(const options *o, const cloud *c, const char *name, const double *value,
+                           const double (*x)[3],
                            uint64_t samples)
 {
     bool *close = host_alloc(c->n * sizeof *close);

@@ -348,14 +348,16 @@ static void report(const run *r, FILE *out)
     fprintf(out, "hash           %016llx\n", (unsigned long long)r->b->hash(r->sim));
 }
 
-/* what the run cost up to its last good step, for charts (tests/lab); seconds are the only figures that change from run to run */
+/* what the run cost up to its last good step, for charts (tests/lab); seconds are the only figures that change from run
+   to run */
 static void write_cost(run *r)
 {
     FILE *f = r->costs.f;
     sph_step_info info;
     r->b->info(r->sim, &info);
     const double s = seconds(r->stepping), unit = calibrate();
-    fprintf(f, "name,value,unit\nparticles,%u,-\nsteps,%llu,-\nparticle_steps,%llu,-\npairs,%llu,-\ntime,%.10g,s\nend,%.10g,s\n",
+    fprintf(f,
+            "name,value,unit\nparticles,%u,-\nsteps,%llu,-\nparticle_steps,%llu,-\npairs,%llu,-\ntime,%.10g,s\nend,%.10g,s\n",
             r->b->count(r->sim), (unsigned long long)(info.step - r->first_step), (unsigned long long)r->particle_steps,
             (unsigned long long)r->pairs, info.time, r->end);
     fprintf(f, "seconds,%.6g,s\ncalibration,%.6g,s\ncalibrations,%.6g,-\n", s, unit, s / unit);
@@ -450,7 +452,8 @@ static void catch_interrupt(void)
 
 static int run_scene(run *r)
 {
-    if (!open_sim(r) || (r->restore && !restore(r)) || !open_history(r) || (r->cost && !host_create(&r->costs, r->cost)))
+    if (!open_sim(r) || (r->restore && !restore(r)) || !open_history(r) ||
+        (r->cost && !host_create(&r->costs, r->cost)))
         return HOST_NO;
     sph_step_info info;
     r->b->info(r->sim, &info);

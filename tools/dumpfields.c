@@ -22,7 +22,8 @@ static uint32_t index_of(const dump_file *d, const char *field, uint32_t set)
 static void get_sets(const dump_file *d, set_constants *c)
 {
     dump_member m;
-    const bool own = dump_find_member(dump_find(d, "sets"), "eos", &m); /* before there were solids: that of the scene */
+    /* before there were solids: that of the scene */
+    const bool own = dump_find_member(dump_find(d, "sets"), "eos", &m);
     for (uint32_t s = 0; s < d->sets && s < 256; s++)
         c[s] = (set_constants){index_of(d, "role", s), index_of(d, "group", s), own ? index_of(d, "eos", s) : d->eos,
                                dump_number(d, "sets", "rho0", s, 0), dump_number(d, "sets", "pressure_scale", s, 0)};
@@ -61,7 +62,8 @@ static int parse_field(const dump_file *d, const char *field, uint32_t *axis)
                  {"damage", F_DAMAGE}},
       parts[] = {{"velocity_", F_VELOCITY}, {"acceleration_", F_ACCELERATION}, {"", F_X}};
     static const char *const pairs[] = {"xx", "yy", "xy", "xz", "yz", "zz"};
-    static const bool there[3][6] = {{true}, {true, true, true, false, false, true}, {true, true, true, true, true, true}};
+    static const bool there[3][6] = {{true}, {true, true, true, false, false, true},
+                                     {true, true, true, true, true, true}};
     for (size_t k = 0; k < sizeof whole / sizeof *whole; k++)
         if (!strcmp(field, whole[k].name))
             return whole[k].kind;
@@ -150,7 +152,8 @@ static void deviator(const dump_file *d, const arrays *a, const set_constants *c
     s[ZZ] = -s[XX] - s[YY];
 }
 
-static double stress_value(const dump_file *d, int kind, const arrays *a, const set_constants *c, uint32_t i, uint32_t pair)
+static double stress_value(const dump_file *d, int kind, const arrays *a, const set_constants *c, uint32_t i,
+                           uint32_t pair)
 {
     double s[6];
     deviator(d, a, c, i, s);
@@ -166,7 +169,8 @@ static double stress_value(const dump_file *d, int kind, const arrays *a, const 
     }
 }
 
-static double one_value(const dump_file *d, int kind, const arrays *a, const set_constants *c, uint32_t i, uint32_t axis)
+static double one_value(const dump_file *d, int kind, const arrays *a, const set_constants *c, uint32_t i,
+                        uint32_t axis)
 {
     double v2 = 0;
     switch (kind) {

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* gradykipp.c: fragment statistics (see gradykipp.h; Gray 2001, section 6.4.2).
 
-   A crack that starts at time s has relieved V (c (t - s))^d at t, V = 2, pi, 4 pi/3; in dt there start m k rate^m t^(m-1)
-   of them. With 1 - D taken as 1 (first order)
+   A crack that starts at time s has relieved V (c (t - s))^d at t, V = 2, pi, 4 pi/3; in dt there start m k rate^m
+   t^(m-1) of them. With 1 - D taken as 1 (first order)
      D(t) = V c^d m k rate^m B(m, d+1) t^(m+d) = alpha rate^m t^(m+d),
      alpha = V c^d k Gamma(m+1) d! / Gamma(m+d+1)           (d = 2: 2 pi c^2 k / ((m+1)(m+2)), Gray 6.15)
      t_f = alpha^(-1/(m+d)) rate^(-m/(m+d))                 (6.16)
    A piece of size L = 2 c (t_f - s): with x = L/(2 c t_f)
      F(L) = V (L/2)^d m k rate^m (t_f - L/2c)^(m-1) / 2c = x^d (1-x)^(m-1) / (B(m, d+1) 2 c t_f)   (6.17)
-   largest at x = d/(m+d-1): L_M = 4 c t_f/(m+1) in two dimensions, 6 c t_f/(m+2) in three. Gray's 6.18 has 4 c t_f/m, and
-   his figures 0.44, 1.63, 2.87 cm follow from that. */
+   largest at x = d/(m+d-1): L_M = 4 c t_f/(m+1) in two dimensions, 6 c t_f/(m+2) in three. Gray's 6.18 has 4 c t_f/m,
+   and his figures 0.44, 1.63, 2.87 cm follow from that. */
 #include "gradykipp.h"
 
 #include <math.h>

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* gradykipp.h: sizes of the pieces into which a brittle body breaks at a constant strain rate (Grady and Kipp 1980; in two
-   dimensions Gray 2001, eqs 6.7-6.18). */
+/* gradykipp.h: sizes of the pieces into which a brittle body breaks at a constant strain rate (Grady and Kipp 1980; in
+   two dimensions Gray 2001, eqs 6.7-6.18). */
 #ifndef GRADYKIPP_H
 #define GRADYKIPP_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Weibull's flaws: k strain^m of them in a unit of length, area or volume (dim 1, 2, 3) are active below a strain; cracks
-   grow at crack_speed; any one system of units. */
+/* Weibull's flaws: k strain^m of them in a unit of length, area or volume (dim 1, 2, 3) are active below a strain;
+   cracks grow at crack_speed; any one system of units. */
 typedef struct gradykipp {
     uint32_t dim;
     double k, m, crack_speed, rate;

@@ -139,7 +139,8 @@ colour image_map(double s)
 {
     s = s > 0 ? s < 1 ? s : 1 : 0;
     const double u = 2 * s - 1;
-    /* violet (hue 300 degrees) through blue and green to yellow (hue 105); chroma stays inside what a screen can show */
+    /* violet (hue 300 degrees) through blue and green to yellow (hue 105); chroma stays inside what a screen can
+       show */
     return from_oklab(0.25 + 0.67 * s, 0.085 + 0.045 * u * u, 300 - 195 * s);
 }
 

@@ -123,7 +123,8 @@ static uint32_t around(const near *g, double x, uint32_t k, uint32_t list[3])
     return count;
 }
 
-void near_each(const near *g, const double x[3], void (*fn)(void *ctx, uint32_t j, const double d[3], double r), void *ctx)
+void near_each(const near *g, const double x[3], void (*fn)(void *ctx, uint32_t j, const double d[3], double r),
+               void *ctx)
 {
     uint32_t list[3][3], count[3];
     for (uint32_t k = 0; k < 3; k++)

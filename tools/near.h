@@ -20,6 +20,7 @@ bool near_open(near *g, uint32_t dim, uint32_t n, const double (*x)[3], double r
 void near_close(near *g);
 
 /* calls fn for every point no farther than reach from x: its index, its place relative to x (shortest way), distance */
-void near_each(const near *g, const double x[3], void (*fn)(void *ctx, uint32_t j, const double d[3], double r), void *ctx);
+void near_each(const near *g, const double x[3], void (*fn)(void *ctx, uint32_t j, const double d[3], double r),
+               void *ctx);
 
 #endif

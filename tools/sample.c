@@ -30,7 +30,8 @@ static void add(void *ctx, uint32_t j, const double d[3], double r)
     }
 }
 
-/* Gauss with the largest pivot of the column; the first unknown of every right hand side. False if it has no solution. */
+/* Gauss with the largest pivot of the column; the first unknown of every right hand side. False if it has no
+   solution. */
 static bool solve(sums *t, double value[SAMPLE_FIELDS])
 {
     const uint32_t n = t->terms;

@@ -12,7 +12,8 @@
 #include "host.h"
 
 enum { SWEEP, LABEL, PRECISION, FIRST_NUMBER, CAUSE = FIRST_NUMBER + STUDY_NUMBERS, OPTIONS, COLUMNS, MOST_CELLS = 64 };
-static const char *const column_name[COLUMNS] = {"sweep", "label", "precision", "n", "x", "error", "steps", "particle_steps",
+static const char *const column_name[COLUMNS] = {"sweep", "label", "precision", "n", "x", "error", "steps",
+                                                 "particle_steps",
                                                  "pairs", "instructions", "ended", "cause", "options"};
 
 /* the next line of *p, without its end; null at the end */
@@ -107,7 +108,8 @@ static bool read_row(study *s, char *line, unsigned long number, const uint32_t 
         host_no("%s: line %lu: not %u cells", s->file, number, cells);
         return false;
     }
-    study_run r = {cell[place[SWEEP]], cell[place[LABEL]], cell[place[CAUSE]], cell[place[OPTIONS]], {0}, false, number, false};
+    study_run r = {cell[place[SWEEP]], cell[place[LABEL]], cell[place[CAUSE]], cell[place[OPTIONS]], {0}, false, number,
+                   false};
     const char *const precision = cell[place[PRECISION]];
     r.is_double = !strcmp(precision, "double");
     if (!r.is_double && strcmp(precision, "float") != 0)
@@ -118,7 +120,8 @@ static bool read_row(study *s, char *line, unsigned long number, const uint32_t 
         const char *const text = cell[place[FIRST_NUMBER + k]];
         r.number[k] = *text ? strtod(text, &end) : -1;
         if (*text && (end == text || *end || !isfinite(r.number[k]) || r.number[k] < 0))
-            return wrong(s, number, column_name[FIRST_NUMBER + k], text, "nothing, or a finite number that is not negative");
+            return wrong(s, number, column_name[FIRST_NUMBER + k], text,
+                         "nothing, or a finite number that is not negative");
     }
     s->run = host_realloc(s->run, (s->runs + 1) * sizeof *s->run);
     s->run[s->runs++] = r;

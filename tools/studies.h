@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* studies.h: the tables of tests/lab in memory: runs of a scene with their errors and costs.
 
-   A study is a CSV file with lines `# key: text` before its column names; those with `# study:` and `# scene:` are studies.
-   A cell may stand in double quotes. Numbers may be missing: a run that blew up has no error. */
+   A study is a CSV file with lines `# key: text` before its column names; those with `# study:` and `# scene:` are
+   studies. A cell may stand in double quotes. Numbers may be missing: a run that blew up has no error. */
 #ifndef STUDIES_H
 #define STUDIES_H
 
@@ -29,9 +29,9 @@ typedef struct study_run {
     bool lucky;         /* the other sizes of its label do not bear its error out: see studies_lucky */
 } study_run;
 
-/* Is a's error by luck, by what the same method gave with other pairs? A finer run that is more than twice as wrong says so, and
-   a coarser one from which the error would have had to fall by more than twice what the fourth order in 2-D gives: pairs go as
-   n^3 there, so the error as pairs^(-4/3). */
+/* Is a's error by luck, by what the same method gave with other pairs? A finer run that is more than twice as wrong
+   says so, and a coarser one from which the error would have had to fall by more than twice what the fourth order in
+   2-D gives: pairs go as n^3 there, so the error as pairs^(-4/3). */
 bool studies_lucky(const study_run *a, const study_run *b);
 
 typedef struct study {
@@ -49,8 +49,8 @@ typedef struct studies {
     uint32_t scenes;
 } studies;
 
-/* The studies of `scene` in a folder, in order of their files' names. False after a message: the folder or a file of this
-   scene cannot be read or is malformed. None at all is no error. */
+/* The studies of `scene` in a folder, in order of their files' names. False after a message: the folder or a file of
+   this scene cannot be read or is malformed. None at all is no error. */
 bool studies_open(studies *s, const char *folder, const char *scene);
 void studies_close(studies *s);
 

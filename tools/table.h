@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* table.h: a CSV file of numbers in memory, and plots by gnuplot. Shared by the commands that read histories or references
-   and those that draw curves. */
+/* table.h: a CSV file of numbers in memory, and plots by gnuplot. Shared by the commands that read histories or
+   references and those that draw curves. */
 #ifndef TABLE_H
 #define TABLE_H
 

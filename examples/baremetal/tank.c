@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* tank.c: water in a tank inside a control loop of fixed rate, on a bare Cortex-M (port/cortexm.c). SysTick calls a tick
-   every 10 ms; each tick gives the water one slice of a step, and the rest of the tick belongs to the host's own duties.
+/* tank.c: water in a tank inside a control loop of fixed rate, on a bare Cortex-M (port/cortexm.c). SysTick calls a
+   tick every 10 ms; each tick gives the water one slice of a step, and the rest of the tick belongs to the host's own
+   duties.
 
    Reports the worst slice in work units and in time, the worst step, and the memory. Exits 0 only if every bound
    held: units of a slice and of a step (sph.h, sph_step_slice), no tick missed, stack within STACK_LIMIT.
@@ -98,7 +99,8 @@ static int report(const loop *l, const sph_sim *sim, size_t stack)
            (unsigned)(TICK / (CORTEXM_HZ / 1000000u)));
     const uint32_t row = CELLS_X * u.cell_particles, slab = row < u.particles ? row : u.particles;
     broken += bound("cells", u.cells, CELLS);
-    broken += bound("worst slice (units)", u.slice_work, BUDGET + SPH_SLICE_EXTRA(1, CELLS_Y, slab, CELLS_X, u.cell_particles));
+    broken += bound("worst slice (units)", u.slice_work,
+                    BUDGET + SPH_SLICE_EXTRA(1, CELLS_Y, slab, CELLS_X, u.cell_particles));
     /* two sweeps: forces, and Adami's walls */
     broken += bound("worst step (units)", u.step_work, SPH_STEP_WORK(2, u.particles, u.cell_particles, u.cells));
     broken += bound("worst slice (ns)", l->worst_slice, TICK * (uint64_t)(1000000000u / CORTEXM_HZ));

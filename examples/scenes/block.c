@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* block.c: a block with flaws is drawn apart until it breaks: whole, with a circular hole, or with gas in the hole (Gray 2001
-   section 7.2). 7 by 7 cm, a^2 = 0.3125 cm^2, particles 0.05 cm apart, gas p = rho c^2 with c = c0/80. Gray's text gives
-   V_f = 1e-5, his figure 1e-4; with the latter the strain at his first fractures, T 250, 105, 80, is that of the flaws. He
-   prints a yield stress of 0.01, which the stress reaches before the flaws: with yield=0.01 the block flows and hardly breaks.
-   Gas beside rock shares its sums, so that the rock's outermost row feels only part of its own strain; `load` puts the
-   same pressure on the rim instead. */
+/* block.c: a block with flaws is drawn apart until it breaks: whole, with a circular hole, or with gas in the hole
+   (Gray 2001 section 7.2). 7 by 7 cm, a^2 = 0.3125 cm^2, particles 0.05 cm apart, gas p = rho c^2 with c = c0/80.
+   Gray's text gives V_f = 1e-5, his figure 1e-4; with the latter the strain at his first fractures, T 250, 105, 80, is
+   that of the flaws. He prints a yield stress of 0.01, which the stress reaches before the flaws: with yield=0.01 the
+   block flows and hardly breaks. Gas beside rock shares its sums, so that the rock's outermost row feels only part of
+   its own strain; `load` puts the same pressure on the rim instead. */
 #include "stretch.h"
 #if SPH_DIM == 2
 
@@ -15,7 +15,8 @@ static const scene_param param[PARAMS] = {
     SOLID_PARAMS(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.8, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, 0.85, 0),
     STRETCH_PARAMS(1e-4, 10, 0),
     BREAK_PARAMS(SPH_BENZ_ASPHAUG, 1.4e19, 0),
-    {"kind", "-", "whole, with a hole, with gas in that, or its pressure as a load: whole hole gas load", WITH_HOLE, 0, 3, SCENE_CHOICE},
+    {"kind", "-", "whole, with a hole, with gas in that, or its pressure as a load: whole hole gas load", WITH_HOLE, 0,
+     3, SCENE_CHOICE},
     {"n", "-", "particles across the block, an even number", 140, 20, 4000, SCENE_WHOLE},
     {"size", "cm", "edge of the block", 7, 0.1, 1e3, SCENE_NUMBER},
     {"square", "cm^2", "radius of the hole, squared", 0.3125, 1e-6, 1e5, SCENE_NUMBER},
@@ -25,7 +26,8 @@ static const scene_param param[PARAMS] = {
 static stretch block(const double *p)
 {
     const double a = __builtin_sqrt(p[SQUARE]), dx = p[SIZE] / p[N], half = p[SIZE] / 2;
-    return (stretch){.lo = {-half, -half}, .hi = {half, half}, .dx = dx, .room = 0.1 * p[SIZE], .has_hole = p[KIND] != WHOLE,
+    return (stretch){.lo = {-half, -half}, .hi = {half, half}, .dx = dx, .room = 0.1 * p[SIZE],
+                     .has_hole = p[KIND] != WHOLE,
                      .has_gas = p[KIND] == WITH_GAS, .hole = {{0, 0}, {a, a}},
                      .gas = {.sound_speed = p[GAS], .own_eos = true, .eos = SPH_ISOTHERMAL}};
 }
@@ -95,20 +97,24 @@ static double gas_pressure(const sph_sim *sim)
 static void history(const sph_sim *sim, const double *p, double *row)
 {
     const stretch b = block(p);
-    const double p1 = stretch_end_stress(sim, 0.4 * p[SIZE]), gas = p[KIND] == WITH_LOAD ? p[GAS] * p[GAS] : gas_pressure(sim);
+    const double p1 = stretch_end_stress(sim,
+                                         0.4 * p[SIZE]), gas = p[KIND] == WITH_LOAD ? p[GAS] * p[GAS] : gas_pressure(sim);
     stretch_broken d;
     sph_totals o;
     sph_get_totals(sim, &o);
     stretch_look(sim, &b, &d);
     const double t = sph_time(sim);
-    const double values[] = {t, 2 * stretch_drawn(p, t) / p[SIZE], p1, o.kinetic, o.elastic + o.internal, o.plastic_work,
-                             stretch_peak(sim), b.has_hole ? hoop(sim, &b, p1, gas) : 0, gas, d.mean, d.full, d.x, d.y, d.near};
+    const double values[] = {t, 2 * stretch_drawn(p, t) / p[SIZE], p1, o.kinetic, o.elastic + o.internal,
+                             o.plastic_work,
+                             stretch_peak(sim), b.has_hole ? hoop(sim, &b, p1,
+                                 gas) : 0, gas, d.mean, d.full, d.x, d.y, d.near};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];
 }
 
 #define scene_block SPH_NAME(scene_block)
 extern const scene scene_block;
-const scene scene_block = {"block", "a block with flaws, with or without a hole, is drawn until it breaks (Gray 2001 section 7.2)",
+const scene scene_block = {"block",
+    "a block with flaws, with or without a hole, is drawn until it breaks (Gray 2001 section 7.2)",
                            param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* brittle.c: a plate 3 x 1 cm with flaws is pulled apart and cracks (Gray 2001, section 6.4.2). The ends of 0.2 cm have no
-   flaws, and only the outermost particles are moved, at a steady speed: 5e-4, 1e-3 and 5e-3 c0 give strain rates of
+/* brittle.c: a plate 3 x 1 cm with flaws is pulled apart and cracks (Gray 2001, section 6.4.2). The ends of 0.2 cm have
+   no flaws, and only the outermost particles are moved, at a steady speed: 5e-4, 1e-3 and 5e-3 c0 give strain rates of
    3.33e-4, 6.67e-4 and 3.33e-3. Flaws k 1.4e19 /cm^2, m 8.5; cracks grow at 0.4 c0. */
 #include "plate.h"
 #if SPH_DIM == 2
@@ -53,7 +53,8 @@ static sph_status build(sph_sim *sim, const double *p)
 static double end(const double *p) { return p[PLATE_DURATION]; }
 
 /* pull: mean stress_xx of the middle; broken: share of the middle with D > 0.99; crack_*: extent in x and y of those */
-static const char *const column[] = {"time_cm/c0", "strain", "pull", "largest_stress", "damage_mean", "broken", "crack_left_cm",
+static const char *const column[] = {"time_cm/c0", "strain", "pull", "largest_stress", "damage_mean", "broken",
+                                     "crack_left_cm",
                                      "crack_right_cm", "crack_low_cm", "crack_high_cm", "closest_dp", "kinetic", "elastic",
                                      "internal", "dissipated", "work"};
 

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* caldera.c: rock over a magma chamber is stretched, then the pressure in the chamber rises (Gray 2001 section 7.4). A section
-   7 km wide and 4.9 km high with an elliptical chamber, semi-axes 1.75 km by 0.8 or 1.12 km, its middle 1.4 km deep; particles
-   50 m apart, flaws of radius 75 m. Lengths here are in km: Gray's T = 1e7 (cm/c0), when the ends stop and the pressure goes
-   from 5e-5 to 1e-4 rho c0^2, is 100 km/c0. The chamber's pressure is a load on its rim (stretch_load): Gray's gas, without what
-   flows into cracks. The flaws: k = 1.4e19 a cm^2, as elsewhere in the thesis; the weakest then fails at a strain of 2.5e-4. He
-   writes 6e-4 (k=0 takes that), which the pressure alone never reaches. `slow` makes everything slower: stretching and pressure
-   are then the same, but further from sound. Where the roof is blown out, the pieces of rock that are not wholly broken are
-   drawn apart until the run ends with BOND_TOO_LONG. With Gray's own form (form=updated kernel=cubic alpha=0.5
-   repulsion=principal damping=1 cfl=0.3 printed=yes), which is softer at free faces, more breaks: his figures 7.6 and 7.7. */
+/* caldera.c: rock over a magma chamber is stretched, then the pressure in the chamber rises (Gray 2001 section 7.4). A
+   section 7 km wide and 4.9 km high with an elliptical chamber, semi-axes 1.75 km by 0.8 or 1.12 km, its middle 1.4 km
+   deep; particles 50 m apart, flaws of radius 75 m. Lengths here are in km: Gray's T = 1e7 (cm/c0), when the ends stop
+   and the pressure goes from 5e-5 to 1e-4 rho c0^2, is 100 km/c0. The chamber's pressure is a load on its rim
+   (stretch_load): Gray's gas, without what flows into cracks. The flaws: k = 1.4e19 a cm^2, as elsewhere in the thesis;
+   the weakest then fails at a strain of 2.5e-4. He writes 6e-4 (k=0 takes that), which the pressure alone never
+   reaches. `slow` makes everything slower: stretching and pressure are then the same, but further from sound. Where the
+   roof is blown out, the pieces of rock that are not wholly broken are drawn apart until the run ends with
+   BOND_TOO_LONG. With Gray's own form (form=updated kernel=cubic alpha=0.5 repulsion=principal damping=1 cfl=0.3
+   printed=yes), which is softer at free faces, more breaks: his figures 7.6 and 7.7. */
 #include "stretch.h"
 #if SPH_DIM == 2
 
@@ -104,7 +105,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
             below++;
     }
     const double strain = 2 * stretch_drawn(p, t) / WIDE, p1 = stretch_end_stress(sim, 0.45 * WIDE);
-    const double values[] = {t, strain, pressure(p, t), p1, o.kinetic, o.elastic + o.internal, o.plastic_work, stretch_peak(sim),
+    const double values[] = {t, strain, pressure(p, t), p1, o.kinetic, o.elastic + o.internal, o.plastic_work,
+                             stretch_peak(sim),
                              d.mean, d.full, d.x, surface, left, right, below, dome + 0.5 * b.dx};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];

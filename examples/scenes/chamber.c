@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* chamber.c: an empty elliptical chamber below a free surface in a stretched block (Gray 2001 section 7.3): stress along the
-   surface. Lengths in a: semi-axes 1.3 along x and 1 up, the middle 1.9, 3.1 or 4.4 below the surface. Half of it is modelled.
-   Stress is sxx + syy over p1, the mean sxx towards the end; in a half plane its maxima are 1.724, 1.280, 1.142 at
-   x 1.558, 2.425, 3.354 (tests/refdata/fe_ellipse_surface.csv). */
+/* chamber.c: an empty elliptical chamber below a free surface in a stretched block (Gray 2001 section 7.3): stress
+   along the surface. Lengths in a: semi-axes 1.3 along x and 1 up, the middle 1.9, 3.1 or 4.4 below the surface. Half
+   of it is modelled. Stress is sxx + syy over p1, the mean sxx towards the end; in a half plane its maxima are 1.724,
+   1.280, 1.142 at x 1.558, 2.425, 3.354 (tests/refdata/fe_ellipse_surface.csv). */
 #include "stretch.h"
 #if SPH_DIM == 2
 
@@ -10,7 +10,8 @@ enum { DEPTH = STRETCH_COMMON, N, WIDE, HIGH, REACH, SETTLE, PARAMS };
 #define STATIONS 41 /* along the surface, every a/4 */
 
 static const scene_param param[PARAMS] = {
-    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_CORRECTED, SPH_NO_ARTIFICIAL_STRESS, 0.5,
+    SOLID_PARAMS_DAMPED(SPH_WENDLAND_C2, 1.5, 0, 0, SPH_KICK_DRIFT_KICK, 0.4, SPH_CORRECTED, SPH_NO_ARTIFICIAL_STRESS,
+                        0.5,
                         0, 0.99),
     STRETCH_PARAMS(1e-5, 15, 40),
     {"depth", "a", "of the chamber's middle below the surface", 1.9, 1.1, 100, SCENE_NUMBER},
@@ -79,6 +80,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
 
 #define scene_chamber SPH_NAME(scene_chamber)
 extern const scene scene_chamber;
-const scene scene_chamber = {"chamber", "stress at the surface above an elliptical chamber in stretched rock (Gray 2001 section 7.3)",
+const scene scene_chamber = {"chamber",
+    "stress at the surface above an elliptical chamber in stretched rock (Gray 2001 section 7.3)",
                              param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
 #endif

@@ -18,7 +18,8 @@ static const scene_param param[PARAMS] = {
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
     {"sound", "sqrt(g H)", "sound speed, H the column's height", 14.142135623730951, 2, 1000, SCENE_NUMBER},
     {"start", "-", "pressure at the start: uniform hydrostatic released", SCENE_RELEASED, 0, 2, SCENE_CHOICE},
-    {"away", "tank lengths", "distance of the tank's corner from the origin, along both axes", 0, -1e6, 1e6, SCENE_NUMBER},
+    {"away", "tank lengths", "distance of the tank's corner from the origin, along both axes", 0, -1e6, 1e6,
+     SCENE_NUMBER},
 };
 
 static double spacing(const double *p) { return p[A] / p[N]; }

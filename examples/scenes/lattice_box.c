@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* lattice_box.c: a periodic square of elastic solid under a uniform pressure, on a lattice of particles (Gray 2001, sections
-   5.6.5, 5.6.6; after Swegle, Hicks & Attaway 1995). With random velocities: does the lattice stay, settle to another, or
-   clump? With a plane wave: its amplitude by projection on the wave, from which a frequency or a rate of growth follows
-   (`sph dispersion` has the theory).
+/* lattice_box.c: a periodic square of elastic solid under a uniform pressure, on a lattice of particles (Gray 2001,
+   sections 5.6.5, 5.6.6; after Swegle, Hicks & Attaway 1995). With random velocities: does the lattice stay, settle to
+   another, or clump? With a plane wave: its amplitude by projection on the wave, from which a frequency or a rate of
+   growth follows (`sph dispersion` has the theory).
 
-   Pressure: p = c0^2 (lambda rho - rho0) (his eq 5.78; lambda < 1: tension) with the start at `rho` times rho0. As lambda rho
-   - rho0 = lambda (rho - rho0/lambda), the material is one of rest density rho0/lambda and sound speed sqrt(lambda) c0, whose
-   bulk modulus is the same. rho = lambda with lambda = 1 would give the same pressures, and every frequency 1/sqrt(lambda)
-   times larger, as the same stresses move less mass.
+   Pressure: p = c0^2 (lambda rho - rho0) (his eq 5.78; lambda < 1: tension) with the start at `rho` times rho0. As
+   lambda rho
+   - rho0 = lambda (rho - rho0/lambda), the material is one of rest density rho0/lambda and sound speed sqrt(lambda) c0,
+   whose bulk modulus is the same. rho = lambda with lambda = 1 would give the same pressures, and every frequency
+   1/sqrt(lambda) times larger, as the same stresses move less mass.
 
    The history looks at every pair, a block of places at a time: it costs n^4 and is meant for n below 100. */
 #include "solid.h"
@@ -104,8 +105,8 @@ static double end(const double *p) { return p[DURATION] * p[SIDE]; }
 
 /* ---- history: who is near whom ---- */
 
-/* Neighbours of BLOCK places. NEAR, in spacings, lies between the distances of the second neighbours of the face-centred and
-   the square lattice (1.118, 1.414): the one has six so near, the other four. */
+/* Neighbours of BLOCK places. NEAR, in spacings, lies between the distances of the second neighbours of the
+   face-centred and the square lattice (1.118, 1.414): the one has six so near, the other four. */
 #define BLOCK 256
 #define NEAR 1.27
 typedef struct around {
@@ -224,6 +225,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
 
 #define scene_lattice_box SPH_NAME(scene_lattice_box)
 extern const scene scene_lattice_box;
-const scene scene_lattice_box = {"lattice_box", "a periodic box of solid in tension or compression: clumping, plane waves",
+const scene scene_lattice_box = {"lattice_box",
+                                 "a periodic box of solid in tension or compression: clumping, plane waves",
                                  param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
 #endif

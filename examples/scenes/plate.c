@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* plate.c: a plate clamped at one end that swings in its lowest mode (Gray 2001 sections 6.2 and 6.3), elastic or plastic. It
-   reaches from x = 0 to its length; the clamp is the region x < 0, held as a whole (ideal), or 8 cm of plate between rows of
-   held particles on both surfaces (surfaces: Gray's clamp). Starts from rest in shape with the velocity of the mode
+/* plate.c: a plate clamped at one end that swings in its lowest mode (Gray 2001 sections 6.2 and 6.3), elastic or
+   plastic. It reaches from x = 0 to its length; the clamp is the region x < 0, held as a whole (ideal), or 8 cm of
+   plate between rows of held particles on both surfaces (surfaces: Gray's clamp). Starts from rest in shape with the
+   velocity of the mode
      V(x) = V_f [A (cosh bx - cos bx) + B (sinh bx - sin bx)]/(the same at L), cos bL cosh bL = -1, b L = 1.8751
-   of a thin plate, whose period is 2 pi/sqrt(mu H^2 b^4/(6 rho (1 - nu))) (eq 6.3); tests/refdata/fe_plate_periods.csv has
-   those of plane-strain finite elements. */
+   of a thin plate, whose period is 2 pi/sqrt(mu H^2 b^4/(6 rho (1 - nu))) (eq 6.3); tests/refdata/fe_plate_periods.csv
+   has those of plane-strain finite elements. */
 #include "solid.h"
 #if SPH_DIM == 2
 
@@ -102,7 +103,8 @@ static sph_status build(sph_sim *sim, const double *p)
 
 static double end(const double *p) { return p[CYCLES] * period(p); }
 
-static const char *const column[] = {"time_cm/c0", "tip_cm",       "kinetic_K.cm2", "elastic_K.cm2", "compression_K.cm2",
+static const char *const column[] = {"time_cm/c0", "tip_cm",       "kinetic_K.cm2", "elastic_K.cm2",
+                                     "compression_K.cm2",
                                      "energy_-",   "plastic_K.cm2", "dissipated_K.cm2", "closest_dx"};
 
 /* the middle of the free end: the last column's two particles next to the mid-line */

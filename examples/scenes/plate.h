@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* plate.h: what the plates in tension share (tension.c, brittle.c; Gray 2001, section 6.4). A plate L x H about the origin, drawn
-   at both ends along x; set 0 is its middle. */
+/* plate.h: what the plates in tension share (tension.c, brittle.c; Gray 2001, section 6.4). A plate L x H about the
+   origin, drawn at both ends along x; set 0 is its middle. */
 #ifndef EXAMPLES_PLATE_H
 #define EXAMPLES_PLATE_H
 
 #include "solid.h"
 #if SPH_DIM == 2
 
-enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP, PLATE_DURATION,
+enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP,
+      PLATE_DURATION,
        PLATE_COMMON };
 
 #define PLATE_PARAMS(n_, acceleration_, speed_, duration_)                                                             \
@@ -23,7 +24,8 @@ enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCE
 static inline double plate_spacing(const double *p) { return p[PLATE_HEIGHT] / p[PLATE_N]; }
 
 /* how far an end has gone at time t */
-static inline double plate_drawn(const double *p, double t) { return p[PLATE_SPEED] * t + 0.5 * p[PLATE_ACCELERATION] * t * t; }
+static inline double plate_drawn(const double *p,
+                                 double t) { return p[PLATE_SPEED] * t + 0.5 * p[PLATE_ACCELERATION] * t * t; }
 
 /* motion of the right end; ctx: the scene's parameters */
 static inline void plate_motion(void *ctx, double t, double *displacement, double *velocity)
@@ -49,7 +51,8 @@ static inline double plate_end(const double *p)
 
 static inline sph_config plate_config(const double *p)
 {
-    const double dx = plate_spacing(p), lo[2] = {-0.5 * p[PLATE_LENGTH], -0.5 * p[PLATE_HEIGHT]}, hi[2] = {-lo[0], -lo[1]};
+    const double dx = plate_spacing(p), lo[2] = {-0.5 * p[PLATE_LENGTH], -0.5 * p[PLATE_HEIGHT]}, hi[2] = {-lo[0],
+        -lo[1]};
     sph_config c = solid_config(p, dx);
     c.max_particles = scene_capacity(scene_box_count(lo, hi, dx) + 4 * p[PLATE_N]);
     c.max_sets = 5;
@@ -60,8 +63,10 @@ static inline sph_config plate_config(const double *p)
     return c;
 }
 
-/* A set of the plate's particles with x from a to b. side: 0: moved by forces; -1, 1: held as the left or right end is. */
-static inline sph_status plate_add(sph_sim *sim, const double *p, const sph_solid *material, double a, double b, int side,
+/* A set of the plate's particles with x from a to b. side: 0: moved by forces; -1, 1: held as the left or right end
+   is. */
+static inline sph_status plate_add(sph_sim *sim, const double *p, const sph_solid *material, double a, double b,
+                                   int side,
                                    uint32_t *set)
 {
     sph_solid m = *material;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* pulse.c: a longitudinal elastic wave on a periodic sheet (Gray 2001, section 5.6.1). The velocity
-   v_x = V exp(-((x - L/2)/w)^2) of an unstrained sheet parts into two pulses of V/2 that travel apart. (His exponent lacks the
-   minus sign.)
+   v_x = V exp(-((x - L/2)/w)^2) of an unstrained sheet parts into two pulses of V/2 that travel apart. (His exponent
+   lacks the minus sign.)
 
-   Small waves travel at c_l = sqrt(c0^2 + 4 mu/(3 rho)). His V is not small: the pulse to the right is a compression and the
-   other one a rarefaction, and where they no longer overlap each is a simple wave, whose crest keeps v = V/2 and travels at
+   Small waves travel at c_l = sqrt(c0^2 + 4 mu/(3 rho)). His V is not small: the pulse to the right is a compression
+   and the other one a rarefaction, and where they no longer overlap each is a simple wave, whose crest keeps v = V/2
+   and travels at
      v + c_l(rho) to the right, v - c_l(rho) to the left, with +-v = integral of c_l drho/rho from rho0
-   while its front steepens (or its back). Both are in the history as exact positions. From t = L/(4 c_l) on the pulses are
-   nearer to each other across the seam; they meet there at L/(2 c_l) and pass each other. */
+   while its front steepens (or its back). Both are in the history as exact positions. From t = L/(4 c_l) on the pulses
+   are nearer to each other across the seam; they meet there at L/(2 c_l) and pass each other. */
 #include "solid.h"
 #if SPH_DIM == 2
 
@@ -92,9 +93,9 @@ static double apart(const double *p, double x, double from)
     return d > 0.5 * p[LENGTH] ? d - p[LENGTH] : d < -0.5 * p[LENGTH] ? d + p[LENGTH] : d;
 }
 
-/* Least squares of v_x around `at` by a cubic in s = (x - at)/reach, |s| < 1, with weights that fall to 0 at the ends, so
-   that it does not matter which particles are just inside: moves `at` to its maximum (at most half a reach) and gives the
-   value there. */
+/* Least squares of v_x around `at` by a cubic in s = (x - at)/reach, |s| < 1, with weights that fall to 0 at the ends,
+   so that it does not matter which particles are just inside: moves `at` to its maximum (at most half a reach) and
+   gives the value there. */
 static double fit_crest(const sph_sim *sim, const double *p, double reach, double *at)
 {
     double a[4][5] = {{0}};
@@ -141,7 +142,8 @@ static double fastest(const sph_sim *sim, const double *p, double at, double oth
     return x;
 }
 
-/* width at half of `height` around `at`, straight between the means of bins a quarter of w wide; 0 if it ends nowhere */
+/* width at half of `height` around `at`, straight between the means of bins a quarter of w wide; 0 if it ends
+   nowhere */
 #define BINS 33
 static double half_width(const sph_sim *sim, const double *p, double at, double height)
 {
@@ -198,6 +200,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
 
 #define scene_pulse SPH_NAME(scene_pulse)
 extern const scene scene_pulse;
-const scene scene_pulse = {"pulse", "a longitudinal elastic wave on a periodic sheet", param, PARAMS, configure, build, end,
+const scene scene_pulse = {"pulse", "a longitudinal elastic wave on a periodic sheet", param, PARAMS, configure, build,
+                           end,
                            sizeof column / sizeof *column, column, history};
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* rings.c: two elastic rings run into each other and rebound (Swegle 1992; Gray 2001, section 6.1). Radii 3 and 4 cm, plane
-   strain, mu 0.22, 50 m/s each; they touch at t = 0. Gray, with the cubic spline, h = 1.5 dx, alpha 0.5 and the updated form,
-   found them broken without artificial stress and rebounding with it.
+/* rings.c: two elastic rings run into each other and rebound (Swegle 1992; Gray 2001, section 6.1). Radii 3 and 4 cm,
+   plane strain, mu 0.22, 50 m/s each; they touch at t = 0. Gray, with the cubic spline, h = 1.5 dx, alpha 0.5 and the
+   updated form, found them broken without artificial stress and rebounding with it.
    He prints 5.87e-3 c0 for 50 m/s. At that speed the rings would rebound before their width has changed by a tenth; his
    widths and heights come out at ten times it, 0.0587 c0. Then c0 is 851.8 m/s and 1 cm/c0 is 11.74 microseconds. */
 #include "solid.h"
@@ -38,7 +38,8 @@ static sph_status build(sph_sim *sim, const double *p)
         const double sign = side ? 1 : -1;
         const sph_ellipse rim = {{sign * p[OUTER], 0}, {p[OUTER], p[OUTER]}};
         const sph_ellipse hole = {{sign * p[OUTER], 0}, {p[INNER], p[INNER]}};
-        const sph_shape ring = {.outline = &rim, .hole = &hole, .holes = p[INNER] > 0, .velocity = {-sign * p[SPEED], 0}};
+        const sph_shape ring = {.outline = &rim, .hole = &hole, .holes = p[INNER] > 0,
+                                .velocity = {-sign * p[SPEED], 0}};
         uint32_t set;
         sph_status st;
         m.body = (uint32_t)side;
@@ -50,7 +51,8 @@ static sph_status build(sph_sim *sim, const double *p)
 
 static double end(const double *p) { return p[DURATION]; }
 
-static const char *const column[] = {"time_cm/c0", "time_us", "width_cm", "width_right_cm", "height_cm", "height_right_cm",
+static const char *const column[] = {"time_cm/c0", "time_us", "width_cm", "width_right_cm", "height_cm",
+                                     "height_right_cm",
                                      "separation_cm", "momentum_left", "speed_left_c0", "kinetic", "internal", "elastic",
                                      "dissipated", "energy", "closest_dp"};
 

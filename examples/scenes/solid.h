@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* solid.h: what scenes of solids share. Their units are Gray's (2001, section 5.4): lengths in cm, stresses in bulk moduli
-   rho0 c0^2, speeds in c0, so rho0 = c0 = 1 and a time of 1 is what sound takes for 1 cm. */
+/* solid.h: what scenes of solids share. Their units are Gray's (2001, section 5.4): lengths in cm, stresses in bulk
+   moduli rho0 c0^2, speeds in c0, so rho0 = c0 = 1 and a time of 1 is what sound takes for 1 cm. */
 #ifndef EXAMPLES_SOLID_H
 #define EXAMPLES_SOLID_H
 
@@ -52,9 +52,9 @@ static inline sph_solid solid_material(const double *p)
     return m;
 }
 
-/* The smallest distance between two particles in spacings, 10 without pairs nearer than that: where it falls well below 1,
-   particles clump. Particles come in slabs along the last axis, no thicker than twice what c says of its cells, so that a
-   particle further up than that ends the search. */
+/* The smallest distance between two particles in spacings, 10 without pairs nearer than that: where it falls well below
+   1, particles clump. Particles come in slabs along the last axis, no thicker than twice what c says of its cells, so
+   that a particle further up than that ends the search. */
 static inline double solid_closest(const sph_sim *sim, const sph_config *c)
 {
     const uint32_t n = sph_count(sim), up = SPH_DIM - 1;

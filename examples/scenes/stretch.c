@@ -66,10 +66,10 @@ static void to_left(void *ctx, double t, double *x, double *v)
 
 /* ---- a lattice bent round a circular hole ---- */
 
-/* The square lattice is made of square rings about the origin; here ring number k >= first lies between the curves k and
-   k + 1. The first curve is the circle, the last the square, the others lie between. Each holds the area of its square (the
-   difference of the first is shared out), and the particles of a ring have equal parts of its area: they stand almost as
-   regularly as on the lattice, each on an area of dx^2, and the hole has no steps. */
+/* The square lattice is made of square rings about the origin; here ring number k >= first lies between the curves k
+   and k + 1. The first curve is the circle, the last the square, the others lie between. Each holds the area of its
+   square (the difference of the first is shared out), and the particles of a ring have equal parts of its area: they
+   stand almost as regularly as on the lattice, each on an area of dx^2, and the hole has no steps. */
 typedef struct bent {
     uint32_t first, last; /* curves */
     double dx, a;
@@ -165,7 +165,8 @@ sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const 
     if ((st = sph_add_solid(sim, rock, &set, NULL)) != SPH_OK ||
         (st = b->bent ? add_bent(sim, set, b, s.hi) : sph_add_shape(sim, set, &s)) != SPH_OK ||
         (flaws && (st = sph_add_flaws(sim, set, flaws)) != SPH_OK) ||
-        (st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK || (st = sph_add_box(sim, set, right, b->hi, NULL)) != SPH_OK)
+        (st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK || (st = sph_add_box(sim, set, right, b->hi,
+            NULL)) != SPH_OK)
         return st;
     end.motion = to_left;
     if (!b->half && ((st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK ||

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* stretch.h: what the scenes of a stretched block share (hole, chamber, block, caldera): a rectangle of rock, perhaps with an
-   elliptical hole, perhaps with gas in it, whose ends are held along x and drawn apart; stresses sampled at places by
-   moving least squares; how much is broken. 2-D. Units: solid.h. */
+/* stretch.h: what the scenes of a stretched block share (hole, chamber, block, caldera): a rectangle of rock, perhaps
+   with an elliptical hole, perhaps with gas in it, whose ends are held along x and drawn apart; stresses sampled at
+   places by moving least squares; how much is broken. 2-D. Units: solid.h. */
 #ifndef EXAMPLES_STRETCH_H
 #define EXAMPLES_STRETCH_H
 
@@ -48,7 +48,8 @@ void break_configure(const double *p, sph_config *c);
 /* Rock, ends and gas. p must live as long as the simulation: the ends' motion reads it. Gas goes with whole blocks. */
 enum { STRETCH_ROCK, STRETCH_RIGHT, STRETCH_LEFT, STRETCH_GAS };
 #define stretch_build SPH_NAME(stretch_build)
-sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const sph_solid *rock, const sph_flaws *flaws);
+sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const sph_solid *rock,
+                         const sph_flaws *flaws);
 
 /* how far each end has gone at time t */
 #define stretch_drawn SPH_NAME(stretch_drawn)
@@ -66,14 +67,15 @@ double stretch_peak(const sph_sim *sim);
 #define stretch_sample SPH_NAME(stretch_sample)
 void stretch_sample(const sph_sim *sim, const stretch *b, const double *at, double reach, double *stress);
 
-/* sxx + syy at n places of a quarter of the rim of a circular hole about the origin, from 0 to 90 degrees. The sum is harmonic
-   in an elastic body: 1, r^-m cos m angle and r^m cos m angle, m up to 8, are fitted to the rock between `skip` off the rim and
-   the radius `out`. (At the rim itself the gradients of particles are one-sided and lag behind by about a spacing.) */
+/* sxx + syy at n places of a quarter of the rim of a circular hole about the origin, from 0 to 90 degrees. The sum is
+   harmonic in an elastic body: 1, r^-m cos m angle and r^m cos m angle, m up to 8, are fitted to the rock between
+   `skip` off the rim and the radius `out`. (At the rim itself the gradients of particles are one-sided and lag behind
+   by about a spacing.) */
 #define stretch_rim SPH_NAME(stretch_rim)
 void stretch_rim(const sph_sim *sim, const stretch *b, double skip, double out, uint32_t n, double *sum);
 
-/* Pressure p in a hole as a load on its rim: acceleration outwards of the rock (rho 1) at x within 3 dx of the rim, whose sum is
-   p on every length of the rim. For a body force. */
+/* Pressure p in a hole as a load on its rim: acceleration outwards of the rock (rho 1) at x within 3 dx of the rim,
+   whose sum is p on every length of the rim. For a body force. */
 #define stretch_load SPH_NAME(stretch_load)
 void stretch_load(const stretch *b, double p, const double *x, double *a);
 

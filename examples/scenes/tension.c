@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* tension.c: an elastic-plastic plate 3 x 1 cm is pulled apart (Gray 2001, section 6.4.1). Its ends of 0.2 cm move
-   outwards with an acceleration of 5e-6 c0^2/cm each; mu 0.3, yield stress 0.03. Gray, with the cubic spline, h = 1.5 dx and the updated
-   form, saw artificial cracks from t 110 on without artificial stress; with it the plate necked from t 295 on. */
+   outwards with an acceleration of 5e-6 c0^2/cm each; mu 0.3, yield stress 0.03. Gray, with the cubic spline, h = 1.5
+   dx and the updated form, saw artificial cracks from t 110 on without artificial stress; with it the plate necked from
+   t 295 on. */
 #include "plate.h"
 #if SPH_DIM == 2
 
@@ -31,8 +32,8 @@ static sph_status build(sph_sim *sim, const double *p)
 
 static double end(const double *p) { return p[PLATE_DURATION]; }
 
-/* strain: the plate's, both ends' way over its length; gap: the longest stretch of x without a particle, in spacings; neck,
-   widest: smallest and largest height of the middle in slices across; pull: mean stress_xx of the middle */
+/* strain: the plate's, both ends' way over its length; gap: the longest stretch of x without a particle, in spacings;
+   neck, widest: smallest and largest height of the middle in slices across; pull: mean stress_xx of the middle */
 static const char *const column[] = {"time_cm/c0", "strain", "pull", "neck_cm", "widest_cm", "neck_at_cm", "closest_dp",
                                      "gap_dp", "plastic_work", "largest_plastic", "kinetic", "elastic", "internal",
                                      "dissipated", "work", "error_of_energy"};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* tank.c: a closed tank of water that can be tilted, as functions for a page (app.js) to call. Tilting turns gravity, not the
-   walls: seen from the tank it is the same. The 2-D float build; everything lies in static memory. Angles are whole degrees
-   and their sines the kernel's own, so that a browser and a native program go through the same bits. */
+/* tank.c: a closed tank of water that can be tilted, as functions for a page (app.js) to call. Tilting turns gravity,
+   not the walls: seen from the tank it is the same. The 2-D float build; everything lies in static memory. Angles are
+   whole degrees and their sines the kernel's own, so that a browser and a native program go through the same bits. */
 #include "tank.h"
 
 #include "../../sph/dmath.h"
@@ -32,7 +32,8 @@ static sph_status build(void)
     if (!st)
         st = sph_add_box(sim, water, corner, column, NULL);
     if (!st)
-        st = sph_add_wall_box(sim, &wall, corner, tank, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1) | SPH_HIGH(1), true, NULL);
+        st = sph_add_wall_box(sim, &wall, corner, tank, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1) | SPH_HIGH(1), true,
+                              NULL);
     return st ? st : sph_ready(sim);
 }
 

@@ -6,7 +6,8 @@
 /* one number of the configuration becomes another */
 static void change_field(input *in, sph_config *c)
 {
-    double *const numbers[] = {&c->spacing, &c->smoothing_length, &c->rho0, &c->sound_speed, &c->alpha, &c->beta, &c->nu,
+    double *const numbers[] = {&c->spacing, &c->smoothing_length, &c->rho0, &c->sound_speed, &c->alpha, &c->beta,
+                               &c->nu,
                                &c->delta, &c->xsph, &c->damping, &c->dt, &c->cfl, &c->viscous_factor, &c->force_factor,
                                &c->gravity_factor, &c->dt_max, &c->dt_min, &c->stress_epsilon, &c->max_stretch, &c->lo[0], &c->hi[0], &c->gravity[0],
                                &c->lo[SPH_DIM - 1], &c->hi[SPH_DIM - 1], &c->gravity[SPH_DIM - 1]};

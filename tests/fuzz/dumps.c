@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* dumps.c: any bytes, and true dumps with some bytes changed (with or without the checksums put right again), given to
-   a simulation that has run. Refused: the simulation is as it was to the last bit and its next step too. Taken: it steps
-   or says why not, and its own dump restores to the same hash. */
+   a simulation that has run. Refused: the simulation is as it was to the last bit and its next step too. Taken: it
+   steps or says why not, and its own dump restores to the same hash. */
 #include "fuzz.h"
 
 #include "tests/fuzz/crc.h"
@@ -152,7 +152,8 @@ static size_t mutate(input *in, const scene *s, unsigned char *d)
         else if (how == 5)
             memmove(d + at, d + (size_t)take(in, 3) % (n - 8), 8);
         else
-            d[at] = (unsigned char)(how == 0 ? d[at] ^ 1u << pick(in, 8) : how == 1 ? d[at] + take(in, 1) : take(in, 1));
+            d[at] = (unsigned char)(how == 0 ? d[at] ^ 1u << pick(in, 8) : how == 1 ? d[at] + take(in, 1) : take(in,
+                1));
     }
     if (mend)
         repair(d, n, s->dump, n);
@@ -203,7 +204,8 @@ void SPH_NAME(fuzz_dumps)(const unsigned char *data, size_t n)
         go_on(s->sim);
         return;
     }
-    hold(!same && (st == SPH_DUMP_TRUNCATED || st == SPH_DUMP_CORRUPT || st == SPH_DUMP_FOREIGN || st == SPH_DUMP_NEWER ||
+    hold(!same && (st == SPH_DUMP_TRUNCATED || st == SPH_DUMP_CORRUPT || st == SPH_DUMP_FOREIGN ||
+                   st == SPH_DUMP_NEWER ||
                    st == SPH_DUMP_MISMATCH));
     hold(sph_last(s->sim)->status == st && sph_last(s->sim)->what[0]);
     hold(state_kept(s->sim, &kept));

@@ -45,7 +45,8 @@ static UNUSED double as_double(uint64_t u)
 /* any double at all, the odd ones often */
 static UNUSED double take_any(input *b)
 {
-    static const double odd[] = {0.0, -0.0, 1, -1, 0.5, 1e-3, 1e3, 1e15, -1e15, 1e30, -1e30, 1e38, 3.5e38, 1e300, -1e300,
+    static const double odd[] = {0.0, -0.0, 1, -1, 0.5, 1e-3, 1e3, 1e15, -1e15, 1e30, -1e30, 1e38, 3.5e38, 1e300,
+                                 -1e300,
                                  1.7976931348623157e308, 5e-324, 1e-310, 2.2250738585072014e-308, 1e-30, 2.220446049250313e-16};
     const uint32_t how = pick(b, 32);
     if (how < sizeof odd / sizeof *odd)
@@ -94,8 +95,8 @@ static UNUSED sph_sim *fuzz_init(const sph_config *c, void **block)
 
 /* ---- what holds after any step ---- */
 
-/* the bounds that sph.h states for the work of a step, and of a slice of one, with every particle in one slab; sorted: the
-   table of cells was good when the step began */
+/* the bounds that sph.h states for the work of a step, and of a slice of one, with every particle in one slab; sorted:
+   the table of cells was good when the step began */
 static UNUSED uint64_t most_work(const sph_sim *sim, uint64_t n)
 {
     const sph_config *c = &sim->cfg;

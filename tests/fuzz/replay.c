@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* replay.c: a main for a fuzz target without a fuzzer, and the keeper of its corpus. The committed corpus of a target is
-   one file: for each input its length (2 bytes, little-endian), then its bytes.
+/* replay.c: a main for a fuzz target without a fuzzer, and the keeper of its corpus. The committed corpus of a target
+   is one file: for each input its length (2 bytes, little-endian), then its bytes.
      replay PACK              gives every input of the pack to the target
      replay --file FILE...    gives each file to the target
      replay --unpack PACK DIR writes every input of the pack as a file
@@ -68,7 +68,8 @@ static int pack_file(const char *name)
         return fail("cannot be opened", name);
     const size_t n = fread(input, 1, MOST, f);
     fclose(f);
-    const int good = putchar((int)(n & 255)) != EOF && putchar((int)(n >> 8)) != EOF && fwrite(input, 1, n, stdout) == n;
+    const int good = putchar((int)(n & 255)) != EOF && putchar((int)(n >> 8)) != EOF && fwrite(input, 1, n,
+        stdout) == n;
     return good ? 0 : fail("cannot be packed", name);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* world_add.c: what the bytes add to a world: sets, particles, lattices, fields; walls of all kinds, fixed and moving. */
+/* world_add.c: what the bytes add to a world: sets, particles, lattices, fields; walls of all kinds, fixed and
+   moving. */
 #include "world.h"
 
 static void field(void *ctx, const double *x, double *v, double *rho)
@@ -33,7 +34,8 @@ static void add_solid(world *w, uint32_t how)
     m.body = held & 1;
     m.held = held & 2 ? held >> 2 & ((1u << SPH_DIM) - 1) : 0;
     if (held & 32) {
-        w->motion[g] = (motion){take_near(&w->in, 0.1), take_near(&w->in, 1), take_near(&w->in, 0.01), take_near(&w->in, 1)};
+        w->motion[g] = (motion){take_near(&w->in, 0.1), take_near(&w->in, 1), take_near(&w->in, 0.01),
+                                take_near(&w->in, 1)};
         m.motion = drive;
         m.motion_ctx = &w->motion[g];
     }
@@ -44,7 +46,8 @@ static void add_flaws(world *w)
 {
 #if SPH_DIM > 1
     const uint32_t how = pick(&w->in, 4), set = pick(&w->in, 4);
-    const sph_flaws f = {how ? 1e9 * (1 + take_near(&w->in, 100)) : take_any(&w->in), how ? 8.5 : take_any(&w->in), take(&w->in, 2)};
+    const sph_flaws f = {how ? 1e9 * (1 + take_near(&w->in, 100)) : take_any(&w->in), how ? 8.5 : take_any(&w->in),
+                         take(&w->in, 2)};
     attempt(w, sph_add_flaws(w->sim, set, &f));
 #else
     (void)w;
@@ -152,7 +155,8 @@ static void take_motion(world *w, sph_wall *wall)
         wall->motion = sph_motion_table;
         wall->motion_ctx = &w->table;
     } else if (how == 5) {
-        w->motion[g] = (motion){take_near(&w->in, 0.1), take_near(&w->in, 1), take_near(&w->in, 0.01), take_near(&w->in, 1)};
+        w->motion[g] = (motion){take_near(&w->in, 0.1), take_near(&w->in, 1), take_near(&w->in, 0.01),
+                                take_near(&w->in, 1)};
         wall->motion = drive;
         wall->motion_ctx = &w->motion[g];
     }

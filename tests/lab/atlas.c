@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* atlas.c: `atlas TABLE OUT` writes one table of the stability atlas to the file OUT, `atlas list` names the tables. No table
-   holds a time of a clock: each comes out the same, byte for byte. */
+/* atlas.c: `atlas TABLE OUT` writes one table of the stability atlas to the file OUT, `atlas list` names the tables. No
+   table holds a time of a clock: each comes out the same, byte for byte. */
 #include "atlas.h"
 
 #include <stdlib.h>
@@ -24,7 +24,8 @@ int main(int argc, char **argv)
         if (strcmp(argv[1], tables[i].name) == 0) {
             char part[4096];
             if (snprintf(part, sizeof part, "%s.part", argv[2]) >= (int)sizeof part) {
-                fprintf(stderr, "atlas: the name of the table's file is too long, at most %d characters\n", (int)sizeof part - 6);
+                fprintf(stderr, "atlas: the name of the table's file is too long, at most %d characters\n",
+                        (int)sizeof part - 6);
                 return 2;
             }
             FILE *f = fopen(part, "w");

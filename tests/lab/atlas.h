@@ -38,7 +38,8 @@ typedef struct growth_case {
 } growth_case;
 double growth_measured(const growth_case *c, double end);
 double growth_theory(const growth_case *c);
-/* the smallest distance of two particles, dx, once noise of 1e-2 c0 has grown and come to rest; *mean: of each one's nearest */
+/* the smallest distance of two particles, dx, once noise of 1e-2 c0 has grown and come to rest; *mean: of each one's
+   nearest */
 double growth_nearest(const growth_case *c, double end, double *mean);
 /* the same and an even side of the box that holds three cells of this support */
 growth_case growth_sided(growth_case c, uint32_t least);
@@ -86,7 +87,8 @@ typedef struct precision_pair {
     uint32_t steps;
     uint32_t part[2][2]; /* steps until the largest [0] and the mean [1] difference passed 1e-3 and 0.1 dx; 0: never */
     double moved[2];            /* at the end: largest and mean difference, dx */
-    double kinetic, front;      /* largest difference of the kinetic energies over its largest value; of the fronts, dx */
+    /* largest difference of the kinetic energies over its largest value; of the fronts, dx */
+    double kinetic, front;
 } precision_pair;
 precision_pair precision_part(uint32_t scene, uint32_t steps);
 

@@ -1,11 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-# atlas.sh: the tables of the stability atlas, as many at a time as there are cores (JOBS). A table whose sources are those it
-# was made from is left alone: their checksum is kept beside the program, which may be deleted at any time.
+# atlas.sh: the tables of the stability atlas, as many at a time as there are cores (JOBS). A table whose sources are
+# those it was made from is left alone: their checksum is kept beside the program, which may be deleted at any time.
 # usage: BUILD=build/fast sh tests/lab/atlas.sh [TABLE ...]
 set -eu
 out=tests/lab
-sum=$(cat sph/*.[ch] tools/dispersion.[ch] $out/atlas*.[ch] $out/box.[ch] $out/theory.[ch] $out/precision_run.[ch] | cksum)
+sum=$(cat sph/*.[ch] tools/dispersion.[ch] $out/atlas*.[ch] $out/box.[ch] $out/theory.[ch] $out/precision_run.[ch] |
+    cksum)
 mkdir -p "$BUILD/atlas_made"
 list=
 # shellcheck disable=SC2046

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* atlas_courant.c: the largest Courant number c0 dt/h that an integrator stands, by bisection of runs and by linear theory.
+/* atlas_courant.c: the largest Courant number c0 dt/h that an integrator stands, by bisection of runs and by linear
+   theory.
 
-   Runs: the periodic square lattice at no pressure with random velocities of 1e-8 c0, artificial viscosity alpha 0.1 (beta 0)
-   everywhere, elastic with mu = 0.22 K. A step is too long if the largest speed in the last quarter of the run is above
-   that in the second (they cover whole periods), or if a step fails. Theory (theory.c): no wave of the box is multiplied by more
-   than 1 a step. Both allow no growth at all.
-   Without viscosity the predictor-corrector and the midpoint rule stand no step: they multiply an oscillation w by 1 + (w dt)^4/4
-   and 1 + (w dt)^4/8. The others stand w dt = 2 and, with viscosity, a little less. */
+   Runs: the periodic square lattice at no pressure with random velocities of 1e-8 c0, artificial viscosity alpha 0.1
+   (beta 0) everywhere, elastic with mu = 0.22 K. A step is too long if the largest speed in the last quarter of the run
+   is above that in the second (they cover whole periods), or if a step fails. Theory (theory.c): no wave of the box is
+   multiplied by more than 1 a step. Both allow no growth at all.
+   Without viscosity the predictor-corrector and the midpoint rule stand no step: they multiply an oscillation w by 1 +
+   (w dt)^4/4 and 1 + (w dt)^4/8. The others stand w dt = 2 and, with viscosity, a little less. */
 #include "atlas.h"
 
 #include <math.h>
@@ -100,7 +101,8 @@ void atlas_courant(FILE *f)
         uint32_t choice;
         const char *name;
     } scheme[] = {{false, SPH_STANDARD, "standard"}, {false, SPH_WEAK, "weak"},        {false, SPH_DIRECT, "direct"},
-                  {false, COURANT_SUMMED, "summed"}, {true, SPH_UPDATED, "updated"},   {true, SPH_CORRECTED, "corrected"},
+                  {false, COURANT_SUMMED, "summed"}, {true, SPH_UPDATED, "updated"},   {true, SPH_CORRECTED,
+                      "corrected"},
                   {true, SPH_TOTAL, "total"}};
     atlas_head(f, "courant", "largest stable Courant number c0 dt/h",
                "square lattice at no pressure, periodic, alpha 0.1, beta 0; elastic with mu = 0.22 K; c0: of the bulk modulus\n"
@@ -112,7 +114,8 @@ void atlas_courant(FILE *f)
         for (uint32_t i = 0; i < SPH_INTEGRATORS; i++)
             for (uint32_t k = 0; k < SPH_KERNELS; k++) {
                 const courant_case c = {scheme[s].elastic, scheme[s].choice, i, k, 1.2};
-                const bool sharp = i == SPH_KICK_DRIFT_KICK || i == SPH_LEAP_FROG; /* beyond their limit all grows fast */
+                /* beyond their limit all grows fast */
+                const bool sharp = i == SPH_KICK_DRIFT_KICK || i == SPH_LEAP_FROG;
                 const double m = courant_measured(&c, sharp ? 400 : 1200, 0.005), t = courant_theory(&c);
                 fprintf(f, "%s,%s,%s,%s,%.3g,%.3f,%.3f,%.3f\n", c.elastic ? "elastic" : "water", scheme[s].name,
                         atlas_integrators[i], atlas_kernels[k], c.h, m, t, m / t);

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-const char *const atlas_kernels[] = {"cubic", "quartic", "quintic", "gaussian", "wendland_c2", "wendland_c4", "hat", NULL};
+const char *const atlas_kernels[] = {"cubic", "quartic", "quintic", "gaussian", "wendland_c2", "wendland_c4", "hat",
+                                     NULL};
 const char *const atlas_integrators[] = {"predictor_corrector", "kick_drift_kick", "leap_frog", "runge_kutta",
                                          "runge_kutta_momentum", NULL};
 const char *const atlas_forms[] = {"none", "updated", "corrected", "total", NULL};

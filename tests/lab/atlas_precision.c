@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* atlas_precision.c: float and double of the same scene side by side (precision_run.c): after how many steps do
-   their particles part, and does anything that one would measure? Both begin from the same bits: positions are multiples of
-   half a spacing. Differences are looked at every 10 steps. */
+   their particles part, and does anything that one would measure? Both begin from the same bits: positions are
+   multiples of half a spacing. Differences are looked at every 10 steps. */
 #include "atlas.h"
 
 #include <math.h>
@@ -64,7 +64,8 @@ void atlas_precision(FILE *f)
     static const struct {
         const char *name;
         uint32_t scene, steps;
-    } list[] = {{"tank", PAIR_TANK, 20000}, {"dam", PAIR_DAM, 3500}, {"vortex", PAIR_VORTEX, 5000}, {"block", PAIR_BLOCK, 10000},
+    } list[] = {{"tank", PAIR_TANK, 20000}, {"dam", PAIR_DAM, 3500}, {"vortex", PAIR_VORTEX, 5000},
+                {"block", PAIR_BLOCK, 10000},
                 {"tension", PAIR_TENSION, 1000}};
     atlas_head(f, "precision", "float and double of the same scene: when particles part, and whether figures do",
                "2-D, fixed step 0.2 dx/c0; scenes: tests/lab/precision_run.c; x: what counts as apart, dx\n"
@@ -74,9 +75,11 @@ void atlas_precision(FILE *f)
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         const precision_pair p = precision_part(list[i].scene, list[i].steps);
         for (int k = 0; k < 2; k++)
-            fprintf(f, "%s,largest,%.3g,steps,%u,steps\n%s,mean,%.3g,steps,%u,steps\n", list[i].name, apart[k], p.part[0][k],
+            fprintf(f, "%s,largest,%.3g,steps,%u,steps\n%s,mean,%.3g,steps,%u,steps\n", list[i].name, apart[k],
+                    p.part[0][k],
                     list[i].name, apart[k], p.part[1][k]);
-        fprintf(f, "%s,largest,,at_end,%.2e,dx\n%s,mean,,at_end,%.2e,dx\n", list[i].name, p.moved[0], list[i].name, p.moved[1]);
+        fprintf(f, "%s,largest,,at_end,%.2e,dx\n%s,mean,,at_end,%.2e,dx\n", list[i].name, p.moved[0], list[i].name,
+                p.moved[1]);
         fprintf(f, "%s,all,,run,%u,steps\n", list[i].name, p.steps);
         fprintf(f, "%s,all,,kinetic,%.2e,-\n", list[i].name, p.kinetic);
         if (list[i].scene == PAIR_DAM)

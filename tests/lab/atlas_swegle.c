@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* atlas_swegle.c: growth in periodic squares of a solid held under pressure or tension: the Swegle test (Powell 2012, section
-   4.2.2; after Swegle, Hicks & Attaway 1995), the repulsion by artificial stress, transverse waves and pairing.
+/* atlas_swegle.c: growth in periodic squares of a solid held under pressure or tension: the Swegle test (Powell 2012,
+   section 4.2.2; after Swegle, Hicks & Attaway 1995), the repulsion by artificial stress, transverse waves and pairing.
 
-   Swegle test: one particle of a lattice at rest is pushed at 1e-10 c0, nothing is viscous, kick-drift-kick with c0 dt = 0.2 dx.
-   The rate is the slope of the logarithm of the speed over the last third of a run of 400 dx/c0, or of one that ends when it
-   is 1e-3 c0; below 0.01 c0/dx it counts as none, as it does in theory: then the particle's push spreads, and moves
-   nothing further. Powell holds the particles around still; here the box is periodic, which linear theory covers exactly.
+   Swegle test: one particle of a lattice at rest is pushed at 1e-10 c0, nothing is viscous, kick-drift-kick with c0 dt
+   = 0.2 dx. The rate is the slope of the logarithm of the speed over the last third of a run of 400 dx/c0, or of one
+   that ends when it is 1e-3 c0; below 0.01 c0/dx it counts as none, as it does in theory: then the particle's push
+   spreads, and moves nothing further. Powell holds the particles around still; here the box is periodic, which linear
+   theory covers exactly.
 
-   With artificial stress the push is 1e-7 c0: principal axes are not followed where the principal stresses differ by less than
-   1e-9 K (tensile_part in sph/sweep.c), and with pushes of 1e-10 c0 slow waves do not grow. At V/V0 = 1 it has no linear
-   theory: it acts on the tension of a wave but not on its pressure. Runs show that at some h it feeds waves there (table swegle). */
+   With artificial stress the push is 1e-7 c0: principal axes are not followed where the principal stresses differ by
+   less than 1e-9 K (tensile_part in sph/sweep.c), and with pushes of 1e-10 c0 slow waves do not grow. At V/V0 = 1 it
+   has no linear theory: it acts on the tension of a wave but not on its pressure. Runs show that at some h it feeds
+   waves there (table swegle). */
 #include "atlas.h"
 
 #include <stdlib.h>
@@ -49,7 +51,8 @@ double growth_measured(const growth_case *c, double end)
 
 double growth_theory(const growth_case *c)
 {
-    const theory_box t = {.form = c->form, .kernel = c->kernel, .lattice = c->lattice, .n = c->n, .h = c->h, .mu = c->mu,
+    const theory_box t = {.form = c->form, .kernel = c->kernel, .lattice = c->lattice, .n = c->n, .h = c->h,
+                          .mu = c->mu,
                           .volume = c->volume, .epsilon = c->epsilon, .exponent = c->exponent};
     const double rate = theory_growth(&t);
     return rate < LEAST ? 0 : rate;
@@ -94,7 +97,8 @@ void atlas_swegle(FILE *f)
                 c.epsilon = form[i].epsilon;
                 c.exponent = 4;
                 c = growth_sided(c, 12);
-                fprintf(f, "%s,%.4g,%.3g,%.3f,%.3f\n", form[i].name, c.volume, c.h, growth_measured(&c, END), growth_theory(&c));
+                fprintf(f, "%s,%.4g,%.3g,%.3f,%.3f\n", form[i].name, c.volume, c.h, growth_measured(&c, END),
+                        growth_theory(&c));
                 fflush(f);
             }
 }
@@ -112,11 +116,13 @@ void atlas_repulsion(FILE *f)
         for (size_t k = 0; k < sizeof h / sizeof *h; k++)
             for (size_t n = 0; n < sizeof exponent / sizeof *exponent; n++)
                 for (size_t e = 0; e < sizeof epsilon / sizeof *epsilon; e++) {
-                    growth_case c = {.form = SPH_UPDATED, .kernel = SPH_CUBIC, .h = h[k], .mu = 0.22, .volume = 1 / lambda[l]};
+                    growth_case c = {.form = SPH_UPDATED, .kernel = SPH_CUBIC, .h = h[k], .mu = 0.22,
+                                     .volume = 1 / lambda[l]};
                     c.epsilon = epsilon[e];
                     c.exponent = exponent[n];
                     c = growth_sided(c, 12);
-                    fprintf(f, "%.3g,%u,%.3g,%.3g,%.3f,%.3f\n", c.epsilon, c.exponent, c.h, lambda[l], growth_measured(&c, END),
+                    fprintf(f, "%.3g,%u,%.3g,%.3g,%.3f,%.3f\n", c.epsilon, c.exponent, c.h, lambda[l],
+                            growth_measured(&c, END),
                             growth_theory(&c));
                     fflush(f);
                 }
@@ -138,11 +144,13 @@ void atlas_pairing(FILE *f)
         for (size_t k = 0; k < sizeof kernel / sizeof *kernel; k++)
             for (size_t j = 0; j < sizeof h / sizeof *h; j++)
                 for (size_t r = 0; r < sizeof rho / sizeof *rho; r++) {
-                    growth_case c = {.form = SPH_UPDATED, .kernel = kernel[k], .lattice = l, .h = h[j], .volume = 1 / rho[r]};
+                    growth_case c = {.form = SPH_UPDATED, .kernel = kernel[k], .lattice = l, .h = h[j],
+                                     .volume = 1 / rho[r]};
                     double mean;
                     c = growth_sided(c, 12);
                     const double nearest = growth_nearest(&c, 600, &mean);
-                    fprintf(f, "%s,%.3g,%u,%.3g,%.3f,%.3f", atlas_kernels[c.kernel], c.h, box_neighbours(c.kernel, l, c.h), rho[r],
+                    fprintf(f, "%s,%.3g,%u,%.3g,%.3f,%.3f", atlas_kernels[c.kernel], c.h,
+                            box_neighbours(c.kernel, l, c.h), rho[r],
                             growth_measured(&c, END), growth_theory(&c));
                     fprintf(f, ",%.2f,%.2f,%s\n", nearest, mean, lattice[l]);
                     fflush(f);

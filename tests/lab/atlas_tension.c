@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* atlas_tension.c: the smallest stretch T at which a chain of particles in one dimension buckles (Powell 2012, section 3.4,
-   figure 3.2). Spacing 1, unit masses, pressure -T c0^2 rho.
+/* atlas_tension.c: the smallest stretch T at which a chain of particles in one dimension buckles (Powell 2012, section
+   3.4, figure 3.2). Spacing 1, unit masses, pressure -T c0^2 rho.
 
-   Powell's matrix, his eq 3.40 with n = 4 (his energy-conserving form) for a chain with free ends, whose missing neighbours
-   he leaves out of every sum:
+   Powell's matrix, his eq 3.40 with n = 4 (his energy-conserving form) for a chain with free ends, whose missing
+   neighbours he leaves out of every sum:
      A_ik = sum_j W'_ij W'_kj - n T delta_ik sum_j W''_ij + n T W''_ik
-   The matrix of the code (form updated, standard scheme; stress and density follow the displacement), for a chain between
-   particles that are held, so that it is at rest:
+   The matrix of the code (form updated, standard scheme; stress and density follow the displacement), for a chain
+   between particles that are held, so that it is at rest:
      A_ik = (1 + 2 T) sum_j W'_ij W'_kj - 2 T delta_ik sum_j W''_ij + 2 T W''_ik
-   where j runs over held particles too and (1 + 2T) comes from the density in sigma/rho^2. Both are tried for T = 0 .. most by
-   bisection on a Cholesky factorisation, which fails where the matrix is not positive definite; their T differ by the factor 2
-   of n, and by the ends. With s^2 on the diagonal too, it fails where a mode grows faster than s.
-   Running: the same chain, pushed at random with 1e-9 c0; unstable if it comes to move 100 times faster within the run, which
-   modes that grow more slowly than ln(1000)/end do not show (a push has about a tenth of its speed in the mode that grows).
-   W'' is found from W' by differences. One dimension, double precision. */
+   where j runs over held particles too and (1 + 2T) comes from the density in sigma/rho^2. Both are tried for T = 0 ..
+   most by bisection on a Cholesky factorisation, which fails where the matrix is not positive definite; their T differ
+   by the factor 2 of n, and by the ends. With s^2 on the diagonal too, it fails where a mode grows faster than s.
+   Running: the same chain, pushed at random with 1e-9 c0; unstable if it comes to move 100 times faster within the run,
+   which modes that grow more slowly than ln(1000)/end do not show (a push has about a tenth of its speed in the mode
+   that grows). W'' is found from W' by differences. One dimension, double precision. */
 #include "atlas.h"
 
 #include <math.h>

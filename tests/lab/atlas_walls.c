@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* atlas_walls.c: what every kind of wall does to still water in many steps, and how much of a block of water that is thrown at it
-   goes through. 2-D, float, the defaults of sph_config_default, dx = c0 = rho0 = 1.
+/* atlas_walls.c: what every kind of wall does to still water in many steps, and how much of a block of water that is
+   thrown at it goes through. 2-D, float, the defaults of sph_config_default, dx = c0 = rho0 = 1.
 
    Tank: 12 by 8 particles at rest in hydrostatic balance, c0^2 = 200 g H. Nothing should ever move.
      speed      root of the mean square, sqrt(g H)
@@ -8,8 +8,9 @@
      nearest    smallest distance of two particles, dx
      pressure   root of the mean square of p - g (H - y), g H
      put_back   particles that were found inside a wall and put back, so far
-   Leak: a block of 8 by 8 is thrown at a wall from 4 dx off, no gravity; crossed: share of its particles that were ever seen more
-   than half a spacing behind the wall's face, with nobody who puts them back (IGNORE), and how often one is put back else. */
+   Leak: a block of 8 by 8 is thrown at a wall from 4 dx off, no gravity; crossed: share of its particles that were ever
+   seen more than half a spacing behind the wall's face, with nobody who puts them back (IGNORE), and how often one is
+   put back else. */
 #include "atlas.h"
 
 #include <math.h>
@@ -17,12 +18,14 @@
 
 #include "box.h"
 
-const char *const wall_names[WALL_CHOICES] = {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "ghost_held", "adami",
+const char *const wall_names[WALL_CHOICES] = {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "ghost_held",
+                                              "adami",
                                               "mirror"};
 
 static sph_wall wall_of(uint32_t choice)
 {
-    static const uint32_t kind[] = {SPH_WALL_LENNARD_JONES, SPH_WALL_KERNEL_FORCE, SPH_WALL_MONAGHAN_KOS, SPH_WALL_GHOST,
+    static const uint32_t kind[] = {SPH_WALL_LENNARD_JONES, SPH_WALL_KERNEL_FORCE, SPH_WALL_MONAGHAN_KOS,
+                                    SPH_WALL_GHOST,
                                     SPH_WALL_GHOST, SPH_WALL_ADAMI, SPH_WALL_ADAMI};
     sph_wall w = sph_wall_default();
     w.kind = kind[choice];
@@ -108,7 +111,8 @@ uint32_t wall_rest(const tank_case *k, const uint32_t *at, uint32_t marks, wall_
         first[q.id][1] = q.x[1];
     }
     if (k->wall != WALL_MIRROR)
-        box_must(sim, sph_add_wall_box(sim, &wall, wlo, whi, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1), true, NULL), "walls");
+        box_must(sim, sph_add_wall_box(sim, &wall, wlo, whi, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1), true, NULL),
+                 "walls");
     sph_status st = SPH_OK;
     uint32_t step = 0;
     while (mark < marks && (st = sph_step(sim)) == SPH_OK)
@@ -133,7 +137,8 @@ void atlas_tank(FILE *f)
                 {"ghost_held", {.wall = WALL_GHOST_HELD, .alpha = 0.01}},
                 {"adami", {.wall = WALL_EXTRAPOLATED, .alpha = 0.01}},
                 {"mirror", {.wall = WALL_MIRROR, .alpha = 0.01}},
-                {"adami_kick_drift_kick", {.wall = WALL_EXTRAPOLATED, .alpha = 0.01, .integrator = SPH_KICK_DRIFT_KICK}},
+                {"adami_kick_drift_kick", {.wall = WALL_EXTRAPOLATED, .alpha = 0.01,
+                                           .integrator = SPH_KICK_DRIFT_KICK}},
                 {"adami_alpha_0.05", {.wall = WALL_EXTRAPOLATED, .alpha = 0.05}},
                 {"adami_molteni", {.wall = WALL_EXTRAPOLATED, .alpha = 0.01, .diffusion = SPH_MOLTENI}},
                 {"adami_hydrostatic", {.wall = WALL_EXTRAPOLATED, .alpha = 0.01, .diffusion = SPH_HYDROSTATIC}},

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* atlas_water.c: water under negative pressure. A periodic square of it, p = c0^2 (rho - rho0) below 0, with the means that are
-   said to help: p >= 0, density diffusion, Shepard's filter, XSPH, other schemes.
+/* atlas_water.c: water under negative pressure. A periodic square of it, p = c0^2 (rho - rho0) below 0, with the means
+   that are said to help: p >= 0, density diffusion, Shepard's filter, XSPH, other schemes.
 
    growth   rate of a push of 1e-10 c0 without viscosity, as in atlas_swegle.c; theory: that of the plain form with mu = 0, which
-            is the linear theory of all schemes with the sum of pressures (standard, weak), whose tensile part -2 p b does not
+            is the linear theory of all schemes with the sum of pressures (standard, weak), whose tensile part -2 p b
+            does not
             know the density. Nothing done to the density can change that part, and it alone makes neighbours pair.
    nearest  mean over the particles of the distance to the nearest, dx, 600 dx/c0 after noise of 1e-2 c0 with alpha 0.1;
    hole     largest distance of a place from the nearest particle, dx (0.71 on the square lattice) */
@@ -110,7 +111,8 @@ void atlas_water(FILE *f)
     for (size_t k = 0; k < sizeof kernel / sizeof *kernel; k++)
         for (size_t d = 0; d < sizeof density / sizeof *density; d++) {
             water_case w = {.kernel = kernel[k], .h = 1.2, .density = density[d]};
-            fprintf(f, "tension_%s,plain,%.3g,theory,%.3f,c0/dx\n", atlas_kernels[w.kernel], w.density, water_theory(&w));
+            fprintf(f, "tension_%s,plain,%.3g,theory,%.3f,c0/dx\n", atlas_kernels[w.kernel], w.density,
+                    water_theory(&w));
             for (w.choice = 0; w.choice < WATER_CHOICES; w.choice++) {
                 double hole;
                 const double nearest = water_nearest(&w, 600, &hole);

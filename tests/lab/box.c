@@ -12,7 +12,8 @@ void box_must(const sph_sim *sim, sph_status s, const char *what)
 {
     if (s == SPH_OK)
         return;
-    fprintf(stderr, "atlas: %s: %s: %s = %g (%s)\n", what, sph_status_text(s), sph_last(sim)->what, sph_last(sim)->value,
+    fprintf(stderr, "atlas: %s: %s: %s = %g (%s)\n", what, sph_status_text(s), sph_last(sim)->what,
+            sph_last(sim)->value,
             sph_last(sim)->allowed);
     exit(1);
 }

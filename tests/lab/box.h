@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* box.h: what the programs of the stability atlas share: simulations on the heap, periodic squares of a solid or of water in
-   units of the spacing, c0 and the density at rest, small pushes, and growth rates fitted to what becomes of them. */
+/* box.h: what the programs of the stability atlas share: simulations on the heap, periodic squares of a solid or of
+   water in units of the spacing, c0 and the density at rest, small pushes, and growth rates fitted to what becomes of
+   them. */
 #ifndef LAB_BOX_H
 #define LAB_BOX_H
 
@@ -43,7 +44,8 @@ uint32_t box_neighbours(uint32_t kernel, uint32_t lattice, double h);
    1e-3 c0; 0 if below `least` or if the last quarter brought none */
 #define box_growth SPH_NAME(box_growth)
 double box_growth(sph_sim *sim, double dt, double end, double least);
-/* the largest speed in the last quarter of the steps over that in the second; infinite if a step fails or it grows 1e4-fold */
+/* the largest speed in the last quarter of the steps over that in the second; infinite if a step fails or it grows
+   1e4-fold */
 #define box_ratio SPH_NAME(box_ratio)
 double box_ratio(sph_sim *sim, uint32_t steps);
 

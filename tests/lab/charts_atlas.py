@@ -32,7 +32,8 @@ def finish(chart, name, head):
 def grid_of(chart, panels, draw, height=230, columns=2, **kw):
     """Small panels of the same axes, `columns` beside each other. draw(panel, key) fills one."""
     for i, (key, title) in enumerate(panels):
-        p = chart.panel(height, kw["xlabel"], kw["ylabel"], kw["x"], kw["y"], title=title, beside=i % columns > 0, left=82,
+        p = chart.panel(height, kw["xlabel"], kw["ylabel"], kw["x"], kw["y"], title=title, beside=i % columns > 0,
+                        left=82,
                         right=kw.get("right", 10))
         draw(p, key)
 
@@ -48,9 +49,11 @@ def courant(name, head, rows):
         p = chart.panel(400, "linear theory, c dt/h", "measured, c dt/h", axis, axis, title=medium, right=200)
         p.segment(axis.low, axis.low, axis.high, axis.high, "(3,3)", "#777777")
         for i, integrator in enumerate(integrators):
-            mine = sorted((r for r in rows if (r["medium"], r["integrator"]) == (medium, integrator) and num(r, "theory")),
+            mine = sorted((r for r in rows if (r["medium"], r["integrator"]) == (medium, integrator)
+                           and num(r, "theory")),
                           key=lambda r: num(r, "theory"))
-            p.line([num(r, "theory") for r in mine], [num(r, "measured") for r in mine], i, integrator.replace("_", " "), lines=False)
+            p.line([num(r, "theory") for r in mine], [num(r, "measured") for r in mine], i,
+                   integrator.replace("_", " "), lines=False)
     off = sorted((r for r in rows if num(r, "ratio")), key=lambda r: -abs(num(r, "ratio") - 1))
     share = sum(abs(num(r, "ratio") - 1) <= 0.05 for r in off)
     chart.note(f"{share} of {len(off)} cases within 5 % of the theory (dotted line: equal). Farthest off:")
@@ -99,7 +102,8 @@ def swegle(name, head, rows):
         agree = sum(((num(r, "measured") or 0) >= GROWTH[0]) == ((num(r, "theory") or 0) >= GROWTH[0]) for r in mine)
         worst = max((abs(num(r, "measured") / num(r, "theory") - 1) for r in both), default=None)
         chart.note(f"{form}: stable or not as theory says in {agree} of {len(mine)}" +
-                   (f"; growth off theory by at most {100 * worst:.2g} % where it is 0.05 or more" if worst is not None else ""), 12)
+                   (f"; growth off theory by at most {100 * worst:.2g} % where it is 0.05 or more" if worst is not None
+                    else ""), 12)
     return finish(chart, name, head)
 
 
@@ -119,7 +123,8 @@ def tension(name, head, rows):
             p.line(h, [num(r, c) for r in mine], 0, points=False, dash=dash, width=1, grey="#666666")
         p.line(h, [num(r, "running") for r in mine], 0, lines=False, shape=6, size=1)
 
-    grid_of(chart, [(k, k.replace("_", " ")) for k in one(rows, "kernel")], draw, xlabel="h/dx", ylabel="critical stretch", x=x, y=y)
+    grid_of(chart, [(k, k.replace("_", " ")) for k in one(rows, "kernel")], draw, xlabel="h/dx",
+            ylabel="critical stretch", x=x, y=y)
     more = "".join(f"; {'dashed' if c == 'seen' else 'dotted'}: {c}" for c in extra)
     chart.note(f"Line: by Cholesky; circles: by running the code{more}. No point: stable at every stretch that was tried.")
     return finish(chart, name, head)
@@ -133,7 +138,8 @@ def pairing(name, head, rows):
     for lattice, rho in keys:
         for what, label, log in (("measured", "growth rate, c/dx", False), ("nearest", "nearest pair, dx", False)):
             y = Axis([num(r, what) for r in rows] + [0], log, low=0)
-            p = chart.panel(260, "h/dx", label, x, y, title=f"{lattice.replace('_', ' ')} lattice, rho {rho}".strip(), right=130)
+            p = chart.panel(260, "h/dx", label, x, y, title=f"{lattice.replace('_', ' ')} lattice, rho {rho}".strip(),
+                            right=130)
             for i, kernel in enumerate(kernels):
                 mine = [r for r in rows if (r.get("lattice", ""), r["rho"], r["kernel"]) == (lattice, rho, kernel)]
                 h = [num(r, "h") for r in mine]
@@ -159,7 +165,8 @@ def repulsion(name, head, rows):
             p.line(e, [num(r, "theory") for r in mine], i, f"n {n}", points=False)
             p.line(e, [num(r, "measured") for r in mine], i, lines=False)
 
-    grid_of(chart, [(k, f"lambda {k[0]:g}, h {k[1]:g} dx") for k in keys], draw, xlabel="epsilon", ylabel="growth rate, c/dx",
+    grid_of(chart, [(k, f"lambda {k[0]:g}, h {k[1]:g} dx") for k in keys], draw, xlabel="epsilon",
+            ylabel="growth rate, c/dx",
             x=x, y=y, right=52)
     chart.note("Lines are linear theory, points runs; n: exponent of the artificial stress.")
     return finish(chart, name, head)
@@ -209,7 +216,8 @@ def curves(chart, rows, title, what):
     p = chart.panel(250, what, label_of(rows), Axis(xs, wide), axis_of(rows), title=title, right=150)
     for i, choice in enumerate(one(rows, "choice")):
         mine = sorted((r for r in rows if r["choice"] == choice and num(r, "x") is not None), key=lambda r: num(r, "x"))
-        p.line([num(r, "x") for r in mine], [num(r, "value") for r in mine], i, choice.replace("_", " "), lines=True, size=0.8)
+        p.line([num(r, "x") for r in mine], [num(r, "value") for r in mine], i, choice.replace("_", " "), lines=True,
+               size=0.8)
 
 
 def bars(chart, rows, several):

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* interpolation.c: what sums over particles make of simple fields, for every smoothing kernel (studies W1 and P1). Prints rows
-   case,kernel,h,figure,value; h in spacings. Compiled for 1-D and 2-D, double.
+/* interpolation.c: what sums over particles make of simple fields, for every smoothing kernel (studies W1 and P1).
+   Prints rows case,kernel,h,figure,value; h in spacings. Compiled for 1-D and 2-D, double.
 
    W1 (Wickramarachchi 2009, figure 2.4): unit spacing, far from any edge, the particle in the middle:
      one        | sum V W - 1 |                                     his 2.13
      grad_x     | sum V (x_j - x_i) dW/dx - 1 |                     his 2.15 to 2.17; what Bonet & Lok's correction makes 0
      ..._jitter the same as root mean squares over 400 particles moved by at most 0.2 of a spacing on each axis (2-D)
      grad_1_jitter         h times the rms of | sum V grad W |, which is 0 for an exact sum
-     grad_square_corrected rms error of d(x^2)/dx over 2 h with corrected gradients, the first field that they do not get right
+     grad_square_corrected rms error of d(x^2)/dx over 2 h with corrected gradients, the first field that they do not
+     get right
      neighbours the pairs that one sum looks at, which is its cost
-   P1 (Powell 2012, figures 1.2 and 1.3): x^3 and its derivative from seven particles at 0 .. 6, h 2 unless h says otherwise: rms error
-   over the particles as a share of the rms of the exact values:
+   P1 (Powell 2012, figures 1.2 and 1.3): x^3 and its derivative from seven particles at 0 .. 6, h 2 unless h says
+   otherwise: rms error over the particles as a share of the rms of the exact values:
      cube, cube_shepard                           sum V f W; divided by sum V W                        (his 1.14)
      slope, slope_zero, slope_corrected           sum V f dW; sum V (f_j - f_i) dW (1.15); divided by sum V (x_j - x_i) dW
      slope_shepard                                gradient of the Shepard-normalised sum               (3.61)
@@ -34,7 +35,8 @@ static void row(const char *study, uint32_t kernel, double h, const char *figure
 static void edge(uint32_t kernel, double h, const char *study)
 {
     enum { CUBE, SHEPARD, SLOPE, ZERO, CORRECTED, NORMALISED, FIGURES };
-    static const char *const figure[FIGURES] = {"cube", "cube_shepard", "slope", "slope_zero", "slope_corrected", "slope_shepard"};
+    static const char *const figure[FIGURES] = {"cube", "cube_shepard", "slope", "slope_zero", "slope_corrected",
+                                                "slope_shepard"};
     double off[FIGURES] = {0}, size[FIGURES] = {0}, at_edge[FIGURES] = {0};
     for (int i = 0; i < 7; i++) {
         double s0 = 0, sf = 0, g0 = 0, gf = 0, gx = 0, x = i;
@@ -49,7 +51,8 @@ static void edge(uint32_t kernel, double h, const char *study)
             gx += g * (y - x);
         }
         const double f = x * x * x, df = 3 * x * x;
-        const double value[FIGURES] = {sf, sf / s0, gf, gf - f * g0, gx != 0 ? (gf - f * g0) / gx : 0, (gf - sf / s0 * g0) / s0};
+        const double value[FIGURES] = {sf, sf / s0, gf, gf - f * g0, gx != 0 ? (gf - f * g0) / gx : 0,
+                                       (gf - sf / s0 * g0) / s0};
         for (int k = 0; k < FIGURES; k++) {
             const double exact = k < SLOPE ? f : df, e = value[k] - exact;
             off[k] += e * e;
@@ -77,7 +80,8 @@ static void place(int i, int j, double jitter, double *x)
 }
 
 typedef struct sums {
-    double one, g[2], m[2][2], square[2]; /* square: sum V ((x_j - x_i)^2 + 2 x_i (x_j - x_i)) grad W, the x^2 difference */
+    /* square: sum V ((x_j - x_i)^2 + 2 x_i (x_j - x_i)) grad W, the x^2 difference */
+    double one, g[2], m[2][2], square[2];
     int neighbours;
 } sums;
 
@@ -118,7 +122,8 @@ static void lattice(uint32_t kernel, double h)
         for (int j = 0; j < SIDE; j++) {
             const sums t = around(kernel, h, i, j, 0.2);
             const double det = t.m[0][0] * t.m[1][1] - t.m[0][1] * t.m[1][0];
-            const double c = (t.m[1][1] * t.square[0] - t.m[0][1] * t.square[1]) / det; /* what is left of d(x^2)/dx - 2 x_i */
+            /* what is left of d(x^2)/dx - 2 x_i */
+            const double c = (t.m[1][1] * t.square[0] - t.m[0][1] * t.square[1]) / det;
             one += (t.one - 1) * (t.one - 1);
             grad_x += (t.m[0][0] - 1) * (t.m[0][0] - 1);
             grad_1 += h * h * (t.g[0] * t.g[0] + t.g[1] * t.g[1]);

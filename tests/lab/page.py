@@ -4,8 +4,9 @@
 
 usage: page.py [--tables tests/lab] [--charts tests/lab/charts] [--readme]
 
-Writes TABLES/index.html; --readme prints its table "your scene -> choose this" as markdown instead. Every sentence with a figure in it
-is worked out from the tables: what is chosen, what a halving of the error costs, and where it is not known.
+Writes TABLES/index.html; --readme prints its table "your scene -> choose this" as markdown instead. Every sentence with
+a figure in it is worked out from the tables: what is chosen, what a halving of the error costs, and where it is not
+known.
 """
 import argparse, html, os, re, sys
 
@@ -34,12 +35,16 @@ ATLAS = (
      "Growth of a tiny push over volume strain and h/dx, in runs and by linear theory. White is stable."),
     ("atlas_tension", "How far a chain can be stretched",
      "Critical stretch of thirty particles, by Cholesky and by running the code."),
-    ("atlas_pairing", "Pairing in compression", "Particles that come together in pairs where there are many neighbours."),
-    ("atlas_repulsion", "What artificial stress does to tension", "Growth against its size epsilon, its exponent n and h."),
-    ("atlas_water", "Water under negative pressure", "Voids and clumps, and what a floor, diffusion or a filter does about them."),
+    ("atlas_pairing", "Pairing in compression",
+     "Particles that come together in pairs where there are many neighbours."),
+    ("atlas_repulsion", "What artificial stress does to tension",
+     "Growth against its size epsilon, its exponent n and h."),
+    ("atlas_water", "Water under negative pressure",
+     "Voids and clumps, and what a floor, diffusion or a filter does about them."),
     ("atlas_tank", "A still tank for a long time", "Disorder by kind of wall."),
     ("atlas_leak", "Walls that leak", "Water thrown at a wall: what gets through, by kind of wall."),
-    ("atlas_precision", "Float and double part", "When runs of the same scene in float and in double are no longer the same."),
+    ("atlas_precision", "Float and double part",
+     "When runs of the same scene in float and in double are no longer the same."),
     ("interpolation", "Interpolation of fields",
      "Error of a constant and of a gradient, and pairs, against h/dx for every smoothing kernel."),
 )
@@ -56,8 +61,8 @@ th, td { text-align: left; vertical-align: top; padding: .35rem .6rem .35rem 0; 
 a { color: #003a8c; } .small { color: #444; font-size: .88rem; }
 @media (max-width: 600px) {
   img { width: calc(100% + 2rem); max-width: none; margin-left: -1rem; }
-  table.stack thead { display: none; } table.stack tr { display: block; border-bottom: 2px solid #777; padding: .5rem 0; }
-  table.stack td { display: block; border: 0; padding: .1rem 0; }
+  table.stack thead { display: none; } table.stack tr { display: block; border-bottom: 2px solid #777; padding: .5rem 0;
+  } table.stack td { display: block; border: 0; padding: .1rem 0; }
   table.stack td::before { content: attr(data-name) ": "; color: #444; }
   table.stack td:empty { display: none; }
   table.stack td:first-child { font-weight: bold; } table.stack td:first-child::before { content: ""; }
@@ -200,7 +205,8 @@ def picture(charts, name, alt, up):
 
 
 def row_of(cells, names):
-    return "<tr>" + "".join(f'<td data-name="{html.escape(n, True)}">{c}</td>' for n, c in zip(names, cells)) + "</tr>\n"
+    return "<tr>" + "".join(f'<td data-name="{html.escape(n, True)}">{c}</td>'
+                            for n, c in zip(names, cells)) + "</tr>\n"
 
 
 def table_of(names, rows):
@@ -258,7 +264,8 @@ def section(s, charts, up):
                                ("precision", "Float and double", precision_words(s))):
         if words:
             text = re.sub(r"<[^>]*>", "", html.unescape(words))
-            out.append(f"<h3>{title}</h3>\n<p>{words}.</p>\n" + picture(charts, f"{s.name}_{name}", f"{s.title}: {text}", up))
+            out.append(f"<h3>{title}</h3>\n<p>{words}.</p>\n" + picture(charts, f"{s.name}_{name}",
+                f"{s.title}: {text}", up))
     return "".join(out)
 
 
@@ -273,10 +280,10 @@ def atlas_sections(charts, up):
     return "".join(out)
 
 
-INTRO = """<p>Which smoothing kernel, wall, integrator, resolution? Here every choice was run against a reference, its error measured
-and its cost counted. A choice is worth taking if no other known run is as cheap and as good: those are the Pareto front of a
-scene. Costs are instructions of the whole run, counted in the default build, and pairs of particles looked at: both repeat
-exactly.</p>
+INTRO = """<p>Which smoothing kernel, wall, integrator, resolution? Here every choice was run against a reference, its
+error measured and its cost counted. A choice is worth taking if no other known run is as cheap and as good: those are
+the Pareto front of a scene. Costs are instructions of the whole run, counted in the default build, and pairs of
+particles looked at: both repeat exactly.</p>
 <p><code>sph advise SCENE error=2%</code> answers from the same tables on the command line.</p>
 """
 

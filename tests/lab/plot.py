@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 """plot.py: charts by gnuplot, made of panels below each other, as SVG and PNG, readable in black and white.
 
-All places are worked out here in pixels: ticks, ranges, the column of names at the right of a panel (each beside the end of its
-line, moved apart where they would overlap), and the caption. Nothing in the files depends on the day or the machine but the
-version of gnuplot and, in PNG, of cairo.
+All places are worked out here in pixels: ticks, ranges, the column of names at the right of a panel (each beside the
+end of its line, moved apart where they would overlap), and the caption. Nothing in the files depends on the day or the
+machine but the version of gnuplot and, in PNG, of cairo.
 """
 import math, os, re, shutil, struct, subprocess, sys, textwrap, zlib
 
@@ -64,12 +64,14 @@ class Axis:
         if not self.log:
             step = 10 ** math.floor(math.log10((self.high - self.low) / most))
             step *= next(k for k in (1, 2, 5, 10) if (self.high - self.low) / (k * step) <= most)
-            return [(v * step, f"{v * step:.6g}") for v in range(math.ceil(self.low / step), math.floor(self.high / step) + 1)]
+            return [(v * step, f"{v * step:.6g}") for v in range(math.ceil(self.low / step),
+                math.floor(self.high / step) + 1)]
         step = max(1, math.ceil(math.log10(self.high / self.low) / most))
         found = self.decades((1,), step)
         for kinds in ((1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9)):
             found = self.decades(kinds, 1) if len(found) < 3 else found
-        return [(v, f"{v:.6g}" if 1e-3 <= v < 1e4 else f"10^{{{e}}}" if k == 1 else f"{k:g} 10^{{{e}}}") for v, k, e in found]
+        return [(v, f"{v:.6g}" if 1e-3 <= v < 1e4 else f"10^{{{e}}}" if k == 1 else f"{k:g} 10^{{{e}}}")
+                for v, k, e in found]
 
     def decades(self, kinds, step):
         found = []
@@ -88,7 +90,8 @@ class Panel:
         self.xticks, self.yticks = xticks or x.ticks(), yticks or y.ticks(max(3, int(height / 45)))
         self.series, self.before, self.names = [], [], []
 
-    def line(self, xs, ys, style=0, name=None, width=1.5, points=True, lines=True, size=0.9, grey=None, shape=None, dash=None):
+    def line(self, xs, ys, style=0, name=None, width=1.5, points=True, lines=True, size=0.9, grey=None, shape=None,
+             dash=None):
         """name: written at the right, beside the last point"""
         xy = [(a, b) for a, b in zip(xs, ys) if a is not None and b is not None and not (self.y.log and b <= 0)]
         if not xy:
@@ -170,8 +173,10 @@ class Chart:
         out += [f"set label {i + 1} {quote(t)} at screen {x / self.width:.6f}, {1 - yy / height:.6f} {a} noenhanced "
                 f"font '{',' if not b else ':Bold,'}{s}'" for i, (x, yy, t, a, s, b) in enumerate(labels)]
         # the texts of the whole are drawn with an empty plot, so that they stand there once
-        out += ["set lmargin at screen 0", "set rmargin at screen 1", "set bmargin at screen 0", "set tmargin at screen 1", "unset border",
-                "unset tics", "set xrange [0:1]", "set yrange [0:1]", "plot NaN notitle", "unset label", "set border 3 lw 1"]
+        out += ["set lmargin at screen 0", "set rmargin at screen 1", "set bmargin at screen 0",
+                "set tmargin at screen 1", "unset border",
+                "unset tics", "set xrange [0:1]", "set yrange [0:1]", "plot NaN notitle", "unset label",
+                "set border 3 lw 1"]
         return "\n".join(out + body + ["unset multiplot", ""]), height
 
     def place(self, p, x, y, width, height):
@@ -184,7 +189,8 @@ class Chart:
                f"set xrange [{p.x.low:.10g}:{p.x.high:.10g}]", f"set yrange [{p.y.low:.10g}:{p.y.high:.10g}]",
                "set xtics nomirror (" + ", ".join(f"{quote(t)} {v:.10g}" for v, t in p.xticks) + ")",
                "set ytics nomirror (" + ", ".join(f"{quote(t)} {v:.10g}" for v, t in p.yticks) + ")",
-               "set grid lc rgb '#cccccc' lw 0.6 dt solid" if p.grid else "unset grid", f"set border {3 if p.grid else 15} lw 1",
+               "set grid lc rgb '#cccccc' lw 0.6 dt solid" if p.grid else "unset grid",
+               f"set border {3 if p.grid else 15} lw 1",
                f"set xlabel {quote(p.xlabel)} noenhanced offset 0,0.5", "unset ylabel"]
         n = 0
 
@@ -218,7 +224,8 @@ class Chart:
         names, arrows = sorted(p.names, key=lambda e: -e[0]), len(p.before)
         ys = spread([min(max(1 - e[0], -0.02), 1.02) * frame for e in names], LINE - 2, frame)
         for k, ((_, (vx, vy), name, point), py) in enumerate(zip(names, ys)):
-            label((right + (24 if point else 14)) / self.width, 1 - (top + py) / height, name, "left", FONT - 1, False, 0, "#000000")
+            label((right + (24 if point else 14)) / self.width, 1 - (top + py) / height, name, "left", FONT - 1, False,
+                  0, "#000000")
             if point:
                 n += 1
                 out.append(f"set label {n} '' at screen {(right + 16) / self.width:.6f}, {1 - (top + py) / height:.6f} {point} front")
@@ -228,14 +235,16 @@ class Chart:
                        f"{1 - (top + py) / height:.6f} nohead back lc rgb '#999999' lw 0.6 dt solid")
         for k, (xy, _) in enumerate(p.series):
             out.append(f"$d{k} << END\n" + "\n".join(f"{a:.10g} {b:.10g}" for a, b in xy) + "\nEND")
-        out.append("plot " + (", ".join(f"$d{k} using 1:2 {how} notitle" for k, (_, how) in enumerate(p.series)) or "NaN notitle"))
+        out.append("plot " + (", ".join(f"$d{k} using 1:2 {how} notitle" for k, (_, how) in enumerate(p.series))
+                              or "NaN notitle"))
         return out + ["unset label", "unset arrow", "unset object"]
 
     def write(self, folder):
         script, height = self.script()
         base = os.path.join(folder, self.name)
         heads = [(f"set terminal svg size {self.width},{height:.0f} fixed enhanced font 'sans-serif,{FONT}' background '#ffffff'", ".svg"),
-                 (f"set terminal pngcairo size {self.width},{height:.0f} enhanced font 'DejaVu Sans,{FONT * 0.78:.1f}'", ".png")]
+                 (f"set terminal pngcairo size {self.width},{height:.0f} enhanced font 'DejaVu Sans,{FONT * 0.78:.1f}'",
+                  ".png")]
         for head, end in heads:
             if end == ".svg":
                 body = script.replace("font ':Bold,", "font 'sans-serif:Bold,")
@@ -254,7 +263,8 @@ class Chart:
 def tidied(path):
     """An SVG without blank lines and indents, and with bold letters as SVG has them: gnuplot 5.4 makes them a family's name."""
     with open(path) as f:
-        lines = [line.strip().replace('font-family="sans-serif:Bold"', 'font-family="sans-serif" font-weight="bold"') for line in f]
+        lines = [line.strip().replace('font-family="sans-serif:Bold"', 'font-family="sans-serif" font-weight="bold"')
+                 for line in f]
     with open(path, "w") as f:
         f.write("\n".join(line for line in lines if line) + "\n")
 
@@ -279,7 +289,8 @@ def in_grey(path):
         start = y * (width * channels + 1)
         last = unfilter(raw[start], raw[start + 1:start + 1 + width * channels:channels], last)
         row = last + b"\xff" * (width % 2)
-        out.append(b"\0" + bytes((a * 15 + 127) // 255 << 4 | (b * 15 + 127) // 255 for a, b in zip(row[::2], row[1::2])))
+        out.append(b"\0" + bytes((a * 15 + 127) // 255 << 4 | (b * 15 + 127) // 255
+                                 for a, b in zip(row[::2], row[1::2])))
 
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))

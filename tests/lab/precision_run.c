@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* precision_run.c: see precision_run.h. All scenes have dx = c0 = rho0 = 1 and a fixed step, so that float and double take
-   the same.
+/* precision_run.c: see precision_run.h. All scenes have dx = c0 = rho0 = 1 and a fixed step, so that float and double
+   take the same.
      tank     12 by 8 particles at rest between Adami walls, c0^2 = 200 g H
      dam      10 by 20 in a tank 40 wide, Adami walls, c0^2 = 200 g H
      vortex   Taylor and Green's in a periodic square of 16, c0 = 10 of its speeds, Morris viscosity, Reynolds number 100
@@ -96,7 +96,8 @@ static void block(sph_sim **sim, void **arena)
 
 static void tension(sph_sim **sim, void **arena)
 {
-    const box_solid b = {.form = SPH_UPDATED, .kernel = SPH_CUBIC, .n = 12, .h = 1.2, .mu = 0.22, .volume = 1.05, .alpha = 0.1,
+    const box_solid b = {.form = SPH_UPDATED, .kernel = SPH_CUBIC, .n = 12, .h = 1.2, .mu = 0.22, .volume = 1.05,
+                         .alpha = 0.1,
                          .dt = 0.2};
     uint32_t set;
     *sim = box_make_solid(&b, &set, arena);

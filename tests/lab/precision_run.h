@@ -13,8 +13,8 @@ typedef struct precision_look {
     double kinetic, front;        /* J; largest x, dx */
 } precision_look;
 
-/* A build's functions, so that two of them can be held side by side. start gives a scene, or null for no memory; period[k]: the
-   length of a periodic axis, else 0. */
+/* A build's functions, so that two of them can be held side by side. start gives a scene, or null for no memory;
+   period[k]: the length of a periodic axis, else 0. */
 typedef struct precision_build {
     void *(*start)(uint32_t scene, double period[2]);
     bool (*step)(void *run); /* false: failed */

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 """run.py: makes the lab's runs and writes a table for each study.
 
-usage: run.py [--jobs N] [--studies A,B] [--smoke] [--tool build/lab/sph] [--counter build/sph] [--valgrind valgrind] [--list]
+usage: run.py [--jobs N] [--studies A,B] [--smoke] [--tool build/lab/sph] [--counter build/sph] [--valgrind valgrind]
+[--list]
 
-Each row of tests/lab/STUDY.csv is one command of the tool. Runs are kept in build/lab and made again only if their command, the
-golden hashes or the scene's source changed, so that an interrupted call goes on where it was. Tables hold no seconds: those go into
-seconds.csv, as multiples of the calibration loop that ran in the same process. Instructions are counted by callgrind in the
-default build over a few steps at the study's coarsest size, and taken times the particle-steps of the run.
+Each row of tests/lab/STUDY.csv is one command of the tool. Runs are kept in build/lab and made again only if their
+command, the golden hashes or the scene's source changed, so that an interrupted call goes on where it was. Tables hold
+no seconds: those go into seconds.csv, as multiples of the calibration loop that ran in the same process. Instructions
+are counted by callgrind in the default build over a few steps at the study's coarsest size, and taken times the
+particle-steps of the run.
 --smoke: a few coarse rows of each study, compared with the committed tables; nothing is written there.
 """
 import argparse, csv, glob, hashlib, io, os, re, shutil, subprocess, sys, time
@@ -19,7 +21,8 @@ sys.path.insert(0, HERE)
 from studies import STUDIES, plus  # noqa: E402
 from validation import Run  # noqa: E402
 
-COLUMNS = ["sweep", "label", "precision", "n", "x", "error", "steps", "particle_steps", "pairs", "instructions", "ended", "cause", "options"]
+COLUMNS = ["sweep", "label", "precision", "n", "x", "error", "steps", "particle_steps", "pairs", "instructions",
+           "ended", "cause", "options"]
 COUNTED_STEPS = 5
 WORK = os.path.join("build", "lab", "runs")
 
@@ -67,9 +70,11 @@ def rows_of(s):
     size = s.resolution.split(",")[0]
 
     def row(sweep, label, precision, n, options, x=""):
-        return LabRun(s, sweep, label, precision, n, x, {size: text(n), **{k: text(v) for k, v in plus(s.base, **options).items()}})
+        return LabRun(s, sweep, label, precision, n, x,
+                      {size: text(n), **{k: text(v) for k, v in plus(s.base, **options).items()}})
 
-    rows = [row("method", label, "float", n, o) for label, o in s.methods.items() for n in s.sizes + s.more.get(label, [])]
+    rows = [row("method", label, "float", n, o) for label, o in s.methods.items()
+            for n in s.sizes + s.more.get(label, [])]
     rows += [row("precision", label, "double", n, s.methods[label]) for label in s.doubles for n in s.sizes]
     rows += [row("h", label, "float", s.at, plus(o, h=x), x) for label, (o, xs) in s.h.items() for x in xs]
     for label, (o, xs) in s.courant.items():
@@ -96,7 +101,8 @@ CHOICES = {}
 def defaults(study):
     """The choices that a study's methods leave alone."""
     own = choices_of(study.scene)
-    return " ".join(f"{k}={study.base.get(k, own[k])}" for k in ("form", "kernel", "h", "scheme", "integrator", "cfl", "alpha", "diffusion", "wall")
+    return " ".join(f"{k}={study.base.get(k, own[k])}"
+                    for k in ("form", "kernel", "h", "scheme", "integrator", "cfl", "alpha", "diffusion", "wall")
                     if k in own and not (k in ("scheme", "diffusion", "wall") and "form" in own))
 
 
@@ -112,8 +118,10 @@ def count(args, run, coarsest):
     key = hashlib.sha256((" ".join(command) + digest_of_code()).encode()).hexdigest()[:20]
     base = os.path.join(WORK, "count_" + key)
     if not os.path.exists(base + ".out"):
-        done = subprocess.run([args.valgrind, "--tool=callgrind", f"--callgrind-out-file={base}.tmp", "--toggle-collect=sph*_step_to"] +
-                              command + [f"out={base}", f"cost={base}.cost"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        done = subprocess.run([args.valgrind, "--tool=callgrind", f"--callgrind-out-file={base}.tmp",
+                               "--toggle-collect=sph*_step_to"] +
+                              command + [f"out={base}", f"cost={base}.cost"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL)
         if not os.path.exists(base + ".cost") or done.returncode not in (0, 1):
             return None
         os.replace(base + ".tmp", base + ".out")
@@ -157,7 +165,8 @@ def read_callgrind(path):
                 total = int(line.split(":")[1].split()[0])
             elif pending:
                 pending = False
-                if inside.split("'")[0] in ("run_program", "run_job") and callee.split("'")[0] not in ("run_program", "run_job"):
+                if inside.split("'")[0] in ("run_program", "run_job") and callee.split("'")[0] not in ("run_program",
+                    "run_job"):
                     stages[callee] = stages.get(callee, 0) + int(line.split()[1])
     return total, stages
 
@@ -167,8 +176,10 @@ def read_callgrind(path):
 def table(study, rows, counts):
     out = io.StringIO()
     out.write("# SPDX-License-Identifier: MIT. Copyright the sph authors.\n")
-    for name, value in (("study", study.name), ("title", study.title), ("scene", study.scene), ("norm", study.norm), ("reference", study.reference),
-                        ("unit", study.unit), ("resolution", study.resolution), ("defaults", defaults(study)), ("command", f"make lab STUDIES={study.name}")):
+    for name, value in (("study", study.name), ("title", study.title), ("scene", study.scene), ("norm", study.norm),
+                        ("reference", study.reference),
+                        ("unit", study.unit), ("resolution", study.resolution), ("defaults", defaults(study)),
+                        ("command", f"make lab STUDIES={study.name}")):
         out.write(f"# {name}: {value}\n")
     w = csv.writer(out, lineterminator="\n")
     w.writerow(COLUMNS)
@@ -187,7 +198,8 @@ def line_of(study, r, counts):
     if ended < 1 - 1e-9 and not r.error:
         error, cause = "", f"not at the end after {steps:.0f} steps"
     ir = counts.get(r.name)
-    return [r.sweep, r.label, r.precision, text(r.n), text(r.x), error, f"{steps:.0f}", f"{done:.0f}", f"{r.cost('pairs'):.0f}",
+    return [r.sweep, r.label, r.precision, text(r.n), text(r.x), error, f"{steps:.0f}", f"{done:.0f}",
+            f"{r.cost('pairs'):.0f}",
             f"{ir[0] * done:.4g}" if ir else "", f"{ended:.4g}", cause, r.given]
 
 
@@ -265,9 +277,10 @@ def main():
     if args.smoke:
         bad = sum(compare(s, rows[s.name]) for s in studies)
         print(f"lab-smoke: {sum(map(len, rows.values()))} rows of {len(studies)} studies, {bad} differ from the committed tables")
-        return bad > 0
+        return bad > 0 or not any(rows.values())
     if not shutil.which(args.valgrind):
-        print("lab: no valgrind, so instructions are left out; apt-get install --no-install-recommends valgrind", file=sys.stderr)
+        print("lab: no valgrind, so instructions are left out; apt-get install --no-install-recommends valgrind",
+              file=sys.stderr)
     counts, stages = {}, []
     for s in studies:
         coarsest = (s.resolution.split(",")[0], text(s.sizes[0]))
@@ -286,7 +299,8 @@ def main():
     merge("stages.csv", ["scene", "precision", "options", "stage", "instructions"], stages, 1,
           "instructions a particle-step by pass of the step, first method of each study; of the gcc that made build/sph")
     merge("seconds.csv", ["scene", "precision", "options", "seconds", "calibrations"],
-          [[r.scene, r.precision, r.given, f"{r.cost('seconds'):.4g}", f"{r.cost('calibrations'):.4g}"] for r in todo], 3,
+          [[r.scene, r.precision, r.given, f"{r.cost('seconds'):.4g}", f"{r.cost('calibrations'):.4g}"] for r in todo],
+          3,
           "seconds of stepping of each run, and as multiples of tools/calibrate.c in the same process; the only table with seconds")
     return 0
 

@@ -2,8 +2,8 @@
 """studies.py: the studies of the lab, as data. A study is a scene, the choices to vary, a reference and an error norm.
 
 A new study is one entry of STUDIES; a module joins the lab by a line in the `methods` of the studies that it concerns.
-    methods   label: options of `sph run`; error against cost over `sizes`, and over `more[label]`, finer ones, where given
-    doubles   labels that run in double too, at `sizes`
+    methods   label: options of `sph run`; error against cost over `sizes`, and over `more[label]`, finer ones, where
+    given doubles   labels that run in double too, at `sizes`
     h         labels: h/dx varied at size `at`
     courant   labels: the time step fixed to x h/c at size `at`, x a multiple of what step control would ask for
 Norms take a finished run (validation.Run) and return a number in `unit`; ValueError where the run gave none.
@@ -116,14 +116,17 @@ def by_kernel(base):
 
 
 hydrostatic = Study(
-    "hydrostatic", "hydrostatic column in 1-D (G1)", "hydrostatic", "largest error of the pressure but for the top two particles",
-    "% of the pressure at the bottom", "rho g depth (Gray 2001, section 2.5.1)", hydrostatic_error, "n, particles in the depth",
+    "hydrostatic", "hydrostatic column in 1-D (G1)", "hydrostatic",
+    "largest error of the pressure but for the top two particles",
+    "% of the pressure at the bottom", "rho g depth (Gray 2001, section 2.5.1)", hydrostatic_error,
+    "n, particles in the depth",
     [25, 50, 100, 200],
     {**{f"{w}, cubic": plus(o, kernel="cubic") for w, o in WALLS.items() if w != "adami, no slip"},
      "adami, quintic": dict(wall="adami", kernel="quintic"),
      "adami, Wendland C2 h 2": dict(wall="adami", kernel="wendland_c2", h=2),
      "adami, quintic, diffusion": dict(wall="adami", kernel="quintic", diffusion="hydrostatic"),
-     "ghost, p from continuity, quintic, diffusion": dict(wall="ghost_compressible", kernel="quintic", diffusion="hydrostatic")},
+     "ghost, p from continuity, quintic, diffusion": dict(wall="ghost_compressible", kernel="quintic",
+                                                          diffusion="hydrostatic")},
     doubles=("adami, quintic", "ghost, p from continuity, quintic, diffusion"), at=50,
     h=by_kernel(dict(wall="adami", diffusion="hydrostatic")),
     courant=by_integrator(dict(wall="adami", kernel="quintic"), 2.0),
@@ -131,7 +134,8 @@ hydrostatic = Study(
 
 still_tank = Study(
     "still_tank", "still tank (G2)", "still_tank", "rms error of the pressure after 3 s, the first 10,000 steps damped",
-    "% of the pressure at the bottom", "rho g depth (Gray 2001, section 2.5.2)", tank_error, "n, particles in the depth",
+    "% of the pressure at the bottom", "rho g depth (Gray 2001, section 2.5.2)", tank_error,
+    "n, particles in the depth",
     [8, 15, 30],
     {**WALLS,
      "adami, diffusion": dict(wall="adami", diffusion="hydrostatic"),
@@ -146,8 +150,10 @@ still_tank = Study(
     step=lambda n, h: h * (0.15 / n) / (SOUND * math.sqrt(G * 0.15)))
 
 dam_break = Study(
-    "dam_break", "dam break, n^2 = 1 (G5)", "dam_break", "front, largest |Z/Z_ref - 1| for Z from 1.2 to 5, no shift in time", "%",
-    "volume-of-fluid fronts of the same tank, tests/refdata/vof_dam_break_n2_1.csv", dam_error, "n, particles across the column",
+    "dam_break", "dam break, n^2 = 1 (G5)", "dam_break",
+    "front, largest |Z/Z_ref - 1| for Z from 1.2 to 5, no shift in time", "%",
+    "volume-of-fluid fronts of the same tank, tests/refdata/vof_dam_break_n2_1.csv", dam_error,
+    "n, particles across the column",
     [15, 30, 60],
     {"default": {}, **{w: plus(o, diffusion="none") for w, o in WALLS.items()},
      "default, cubic": dict(kernel="cubic"),
@@ -163,23 +169,30 @@ dam_break = Study(
      "default, sound 7": dict(sound=7.0710678)},
     base=dict(books="no", frames=100), more={"default": [120], "default, sound 7": [120]}, doubles=("default",), at=30,
     h={"Wendland C2": ({}, STEPS_H), "cubic": (dict(kernel="cubic"), STEPS_H)},
-    courant={**by_integrator({}, 2.0), "kick-drift-kick, no floor": (dict(integrator="kick_drift_kick", floor="no"), courants(2.0))},
+    courant={**by_integrator({}, 2.0), "kick-drift-kick, no floor": (dict(integrator="kick_drift_kick", floor="no"),
+        courants(2.0))},
     step=lambda n, h: h * (0.0572 / n) / (SOUND * math.sqrt(G * 0.0572)))
 
 taylor_green = Study(
-    "taylor_green", "Taylor-Green vortex, Re 100 (B1)", "taylor_green", "kinetic energy, largest |E/E_exact - 1| until t = L/U", "%",
+    "taylor_green", "Taylor-Green vortex, Re 100 (B1)", "taylor_green",
+    "kinetic energy, largest |E/E_exact - 1| until t = L/U", "%",
     "exact decay of the Navier-Stokes solution", vortex_error, "n, particles along a side", [25, 50, 100],
     {"default": {}, "no diffusion": dict(diffusion="none"), "cubic h 1.3": dict(kernel="cubic", h=1.3),
      "quintic h 1.5": dict(kernel="quintic", h=1.5), "Wendland C4 h 2.5": dict(kernel="wendland_c4", h=2.5),
-     "h 1.5": dict(h=1.5), "h 2": dict(h=2), "h 3": dict(h=3), "lattice start": dict(jitter=0), "predictor-corrector": PC,
-     "weak scheme": dict(scheme="weak"), "XSPH 0.5": dict(xsph=0.5), "density by summation": dict(density="summation", diffusion="none")},
+     "h 1.5": dict(h=1.5), "h 2": dict(h=2), "h 3": dict(h=3), "lattice start": dict(jitter=0),
+     "predictor-corrector": PC,
+     "weak scheme": dict(scheme="weak"), "XSPH 0.5": dict(xsph=0.5),
+     "density by summation": dict(density="summation", diffusion="none")},
     base=dict(frames=40), doubles=("default",), at=50,
-    h={"Wendland C2": ({}, [1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0]), "quintic": (dict(kernel="quintic"), [1.0, 1.2, 1.4, 1.6, 1.8, 2.0])},
+    h={"Wendland C2": ({}, [1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0]),
+       "quintic": (dict(kernel="quintic"), [1.0, 1.2, 1.4, 1.6, 1.8, 2.0])},
     courant=by_integrator({}, 1.4), step=lambda n, h: h / n / 10)
 
 standing_wave = Study(
-    "standing_wave", "standing wave, Re 500 (B2)", "standing_wave", "rms of (mode - linear theory) over its amplitude, three periods",
-    "% of the amplitude", "linear dispersion relation with Lamb's decay", wave_error, "n, particles in the depth", [10, 20, 40],
+    "standing_wave", "standing wave, Re 500 (B2)", "standing_wave",
+    "rms of (mode - linear theory) over its amplitude, three periods",
+    "% of the amplitude", "linear dispersion relation with Lamb's decay", wave_error, "n, particles in the depth",
+    [10, 20, 40],
     {"default": {}, "no diffusion": dict(diffusion="none"), "cubic h 1.2": dict(kernel="cubic", h=1.2),
      "quintic h 1.5": dict(kernel="quintic", h=1.5), "h 1.5": dict(h=1.5), "h 1.2": dict(h=1.2),
      "Morris": dict(viscosity="morris"), "ghost, p from continuity": dict(wall="ghost_compressible"),
@@ -190,20 +203,25 @@ standing_wave = Study(
     courant=by_integrator({}, 2.0), step=lambda n, h: h / n / (SOUND * math.sqrt(G)))
 
 elliptical_drop = Study(
-    "elliptical_drop", "elliptical drop (B4)", "elliptical_drop", "semi-axes, largest |a/a_exact - 1| or |b/b_exact - 1|", "%",
+    "elliptical_drop", "elliptical drop (B4)", "elliptical_drop",
+    "semi-axes, largest |a/a_exact - 1| or |b/b_exact - 1|", "%",
     "exact ordinary differential equation (Monaghan 1994)", drop_error, "n, particles in the radius", [10, 20, 40],
-    {"default": {}, "cubic h 1.2": dict(kernel="cubic", h=1.2), "quintic h 1.2": dict(h=1.2), "Wendland C2 h 1.5": dict(kernel="wendland_c2"),
+    {"default": {}, "cubic h 1.2": dict(kernel="cubic", h=1.2), "quintic h 1.2": dict(h=1.2),
+     "Wendland C2 h 1.5": dict(kernel="wendland_c2"),
      "Wendland C2 h 2": dict(kernel="wendland_c2", h=2), "alpha 0": dict(alpha=0, integrator="kick_drift_kick"),
-     "alpha 0.1": dict(alpha=0.1), "diffusion": dict(diffusion="molteni"), "kick-drift-kick": dict(integrator="kick_drift_kick", cfl=0.9),
+     "alpha 0.1": dict(alpha=0.1), "diffusion": dict(diffusion="molteni"),
+     "kick-drift-kick": dict(integrator="kick_drift_kick", cfl=0.9),
      "direct scheme": dict(scheme="direct"), "weak scheme": dict(scheme="weak"), "sound 7": dict(sound=7)},
     base=dict(frames=40), more={"default": [80], "sound 7": [80]}, doubles=("default",), at=20,
-    h={"quintic": ({}, STEPS_H), "Wendland C2": (dict(kernel="wendland_c2"), STEPS_H), "cubic": (dict(kernel="cubic"), STEPS_H)},
+    h={"quintic": ({}, STEPS_H), "Wendland C2": (dict(kernel="wendland_c2"), STEPS_H),
+       "cubic": (dict(kernel="cubic"), STEPS_H)},
     courant=by_integrator({}, 2.0), step=lambda n, h: h / n / (14 * 100))
 
 # ---- solids: units of their scenes, c0 = 1 ----
 
 TOODY = [r for r in read_table("gray_rings.csv") if r["method"] == "TOODY"][1:]
-PLATE = next(float(r["T_A"]) for r in read_table("fe_plate_periods.csv") if float(r["H"]) == 2 and float(r["mu"]) == 0.22)
+PLATE = next(float(r["T_A"]) for r in read_table("fe_plate_periods.csv") if float(r["H"]) == 2
+             and float(r["mu"]) == 0.22)
 FORMS = {"total": dict(form="total"), "corrected": dict(form="corrected"), "Gray's": dict(form="updated")}
 SOLID_INTEGRATORS = INTEGRATORS
 PULSE = dict(height=16, duration=0.9, frames=90)
@@ -219,7 +237,8 @@ def pulse_loss(run):
 
 def rings_error(run):
     whole(run)
-    off = [solids.ring(run, c, float(t["time_us"])) - float(t[c]) for t in TOODY for c in ("width", "height", "separation")]
+    off = [solids.ring(run, c, float(t["time_us"])) - float(t[c]) for t in TOODY
+           for c in ("width", "height", "separation")]
     return math.sqrt(sum(x * x for x in off) / len(off))
 
 
@@ -244,14 +263,16 @@ pulse_methods = {
 }
 pulse = Study(
     "pulse", "longitudinal pulse (G12), speed", "pulse", "speed of the crests, the worse of the two", "%",
-    "simple waves of their amplitude (Gray 2001, 5.6.1)", pulse_error, "n, particles in 20 widths of the pulse", [100, 200, 400],
+    "simple waves of their amplitude (Gray 2001, 5.6.1)", pulse_error, "n, particles in 20 widths of the pulse",
+    [100, 200, 400],
     pulse_methods, base=PULSE, more={"total, alpha 0.02": [800]}, doubles=("total, alpha 0.02",), at=200,
     h={"total": (dict(form="total"), STEPS_H[1:9]), "corrected": (dict(form="corrected", alpha=0.1), STEPS_H[1:9]),
        "Gray's": (dict(form="updated", alpha=0.1), STEPS_H[1:9])},
     courant=by_integrator(dict(form="total"), 1.4), step=lambda n, h: h * 200 / n)
 
 pulse_amplitude = Study(
-    "pulse_amplitude", "longitudinal pulse (G12), amplitude", "pulse", "change of the weaker pulse's amplitude in 0.88 of a round", "%",
+    "pulse_amplitude", "longitudinal pulse (G12), amplitude", "pulse",
+    "change of the weaker pulse's amplitude in 0.88 of a round", "%",
     "none is lost (Gray 2001, 5.6.1)", pulse_loss, "n, particles in 20 widths of the pulse", [100, 200, 400],
     pulse_methods, base=PULSE, more={"total, alpha 0.02": [800]}, doubles=("total, alpha 0.02",))
 
@@ -259,7 +280,8 @@ rings = Study(
     "rings", "colliding rings (G14)", "rings", "rms of width, height, gap less TOODY's at 500, 1000, 1500 us", "cm",
     "TOODY's finite differences as Gray 2001 prints them (table 6.2), tests/refdata/gray_rings.csv", rings_error,
     "dp, spacing in cm", [0.2, 0.1],
-    {"total, alpha 0.1": {}, "total, alpha 0.5": dict(alpha=0.5), "total, alpha 0": dict(alpha=0), "total, cubic": dict(kernel="cubic"),
+    {"total, alpha 0.1": {}, "total, alpha 0.5": dict(alpha=0.5), "total, alpha 0": dict(alpha=0),
+     "total, cubic": dict(kernel="cubic"),
      "total, h 1.2": dict(h=1.2), "corrected, epsilon 0.3": dict(form="corrected", repulsion="principal"),
      "corrected, epsilon 0": dict(form="corrected"),
      "Gray's own: alpha 0.5, epsilon 0.3": plus(solids.CASE_OF_GRAY, alpha=0.5, repulsion="principal"),
@@ -271,25 +293,31 @@ rings = Study(
 
 plate = Study(
     "plate", "clamped plate, H 2, mu 0.22, V_f 0.001 (G15)", "plate", "period", "%",
-    "plane-strain finite elements, tests/refdata/fe_plate_periods.csv", plate_error, "n, particles across the thickness", [6, 8, 10, 14],
-    {"total": {}, "total, cubic h 1.2": dict(kernel="cubic", h=1.2), "total, h 1.0": dict(h=1.0), "total, h 1.2": dict(h=1.2),
+    "plane-strain finite elements, tests/refdata/fe_plate_periods.csv", plate_error,
+    "n, particles across the thickness", [6, 8, 10, 14],
+    {"total": {}, "total, cubic h 1.2": dict(kernel="cubic", h=1.2), "total, h 1.0": dict(h=1.0),
+     "total, h 1.2": dict(h=1.2),
      "corrected, epsilon 0.3, alpha 0.1": dict(form="corrected", alpha=0.1, h=1.2),
      "corrected, epsilon 0": dict(form="corrected", repulsion="none", h=1.2),
      "Gray's own: alpha 0.5, epsilon 0.3": plus(solids.CASE_OF_GRAY, alpha=0.5, repulsion="principal"),
      "Gray's, epsilon 0": plus(solids.CASE_OF_GRAY, alpha=0.5, repulsion="none"),
      "total, predictor-corrector, alpha 0.5": dict(integrator="predictor_corrector", alpha=0.5)},
     base=dict(speed=0.001, cycles=0.6, every=10), more={"total": [20]}, doubles=("total",), at=8,
-    h={"total": ({}, [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4]), "corrected": (dict(form="corrected", alpha=0.1), [0.8, 1.0, 1.2, 1.4])},
+    h={"total": ({}, [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4]),
+       "corrected": (dict(form="corrected", alpha=0.1), [0.8, 1.0, 1.2, 1.4])},
     courant=by_integrator({}, 1.4), step=lambda n, h: h * 2 / n)
 
 hole = Study(
     "hole", "hole in a block (G19)", "hole", "largest stress on the rim off the exact 3.0546 p1", "%",
-    "series solution of the block, tests/refdata/fe_hole.csv", hole_error, "n, particles across the block", [40, 70, 100],
-    {"corrected": {}, "Gray's": dict(form="updated"), "total": dict(form="total"), "corrected, square lattice": dict(lattice="square"),
+    "series solution of the block, tests/refdata/fe_hole.csv", hole_error, "n, particles across the block",
+    [40, 70, 100],
+    {"corrected": {}, "Gray's": dict(form="updated"), "total": dict(form="total"),
+     "corrected, square lattice": dict(lattice="square"),
      "Gray's, square lattice": dict(form="updated", lattice="square"), "corrected, h 1.2": dict(h=1.2),
      "corrected, cubic h 1.2": dict(kernel="cubic", h=1.2)},
     more={"corrected": [140]}, doubles=("corrected",), at=40,
     h={"corrected": ({}, [1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0])},
     courant=by_integrator({}, 1.0), step=lambda n, h: h * 7 / n)
 
-STUDIES = [hydrostatic, still_tank, dam_break, taylor_green, standing_wave, elliptical_drop, pulse, pulse_amplitude, rings, plate, hole]
+STUDIES = [hydrostatic, still_tank, dam_break, taylor_green, standing_wave, elliptical_drop, pulse, pulse_amplitude,
+           rings, plate, hole]

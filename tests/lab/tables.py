@@ -50,7 +50,8 @@ class Study:
     """A table of runs. A row is good if it reached its end and has an error, controlled if step control chose its steps."""
 
     def __init__(self, head, rows, path):
-        self.name, self.title, self.scene = head["study"], head.get("title", head["study"]), head.get("scene", head["study"])
+        self.name, self.title, self.scene = head["study"], head.get("title", head["study"]), head.get("scene",
+            head["study"])
         self.norm, self.reference = head.get("norm", ""), head.get("reference", "")
         self.unit, self.command = head.get("unit", ""), head.get("command", "")
         self.resolution = head.get("resolution", "n")
@@ -121,8 +122,8 @@ def studies(folder):
 
 
 def halving(front, cost):
-    """Cost of half the error over cost of the error: 2^p of the straight line ln cost = a - p ln error through the front by
-    least squares. None where the front has less than three members or spans less than one halving."""
+    """Cost of half the error over cost of the error: 2^p of the straight line ln cost = a - p ln error through the
+    front by least squares. None where the front has less than three members or spans less than one halving."""
     if len(front) < 3 or front[0]["error"] < 2 * front[-1]["error"] or front[-1]["error"] <= 0:
         return None
     x, y = [math.log(r["error"]) for r in front], [math.log(r[cost]) for r in front]

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* theory.h: what linear theory says of a square of particles on a lattice with periodic sides: how fast the fastest of its
-   waves grows, and the largest step that an integrator stands. Lengths in spacings, speeds in c0, density 1: times in dx/c0. */
+/* theory.h: what linear theory says of a square of particles on a lattice with periodic sides: how fast the fastest of
+   its waves grows, and the largest step that an integrator stands. Lengths in spacings, speeds in c0, density 1: times
+   in dx/c0. */
 #ifndef LAB_THEORY_H
 #define LAB_THEORY_H
 
@@ -25,7 +26,8 @@ void theory_modes(const theory_box *b, const double k[2], double value[2], bool 
 
 /* ---- the largest stable step at no stress ---- */
 
-/* density by continuity (all schemes are one at no pressure), by summation; elastic with plain and with corrected gradients */
+/* density by continuity (all schemes are one at no pressure), by summation; elastic with plain and with corrected
+   gradients */
 enum { THEORY_WATER, THEORY_SUMMED, THEORY_UPDATED, THEORY_CORRECTED };
 
 typedef struct theory_step {
