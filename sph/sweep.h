@@ -45,9 +45,10 @@ SPH_INLINE vreal sph_seen_tensor(const sph_candidates *r, uint32_t k, uint32_t l
     return r->im->is_image && k != l ? v * (sph_real)(r->im->sign[k] * r->im->sign[l]) : v;
 }
 
-/* A column set: rows of reals that a module's candidates (and, of bodies, homes) bring beside those of every tile. The
-   loader writes row r of particle `first` + j to to[r * row + j], j = 0 .. n - 1, and may write SPH_W - 1 elements more.
-   Behind the last candidate all are 0. The module overlays a struct of its own on the rows in its header. */
+/* A column set: rows of reals that a module's candidates (and, of bodies, homes) bring beside those of every tile.
+   The loader writes row r of particle `first` + j to to[r * row + j], j = 0 .. n - 1, and may write SPH_W - 1
+   elements more. Behind the last candidate all are 0. The module overlays a struct of its own on the rows in its
+   header. */
 struct sph_column_set {
     uint8_t ghosts; /* 1: of ghosts; 0: of bodies, and of homes */
     uint8_t rows;
