@@ -16,6 +16,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "checks.h"
 #include "sph.h"
 
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0

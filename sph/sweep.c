@@ -60,6 +60,8 @@ static void flush(filling *f, uint32_t role)
     uint32_t *n = tile_count(t, role);
     if (*n == 0)
         return;
+    SPH_ASSERT(*n <= SPH_TILE);
+    SPH_VALIDATE(role == SPH_ROLE_FORCE_WALL || sph_is_tile_sound(ghosts ? &t->ghosts : &t->bodies));
     if (!SPH_HAS_FORCE_WALLS || role != SPH_ROLE_FORCE_WALL) {
         sph_close_tile(f->sim, ghosts ? &t->ghosts : &t->bodies);
         if (f->w->columns)
@@ -240,6 +242,7 @@ static void load_homes(filling *f, uint32_t *s, uint32_t e)
         *s += n;
     }
     f->homes = t->home.n;
+    SPH_ASSERT(f->homes <= SPH_HOMES);
 }
 
 /* sums of eight homes; a fixed number of vector stores costs less than finding out how many are needed */
@@ -255,6 +258,7 @@ static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
 {
     const sph_sim *sim = f->sim;
     uint32_t s = sim->cell[cell], e = sim->cell[cell + 1];
+    SPH_ASSERT(s <= e && e <= sim->next.count);
     for (uint32_t k = 0; k < SPH_DIM; k++)
         f->origin[k] = (sph_pos)c[k] * sim->grid.cell_size[k];
     while (s < e) {
@@ -293,6 +297,7 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     f.t = t;
     f.b = &sim->buf[sim->dst];
     f.homes = 0;
+    SPH_ASSERT(w->sums >> SPH_SUMS == 0 && w->columns >> SPH_COLUMN_COUNT == 0);
     uint64_t before = t->pairs;
     uint32_t cell = chunk * sim->chunk_cells, c[3] = {0}, q = cell;
     const uint32_t left = sim->grid.cells - cell, last = cell + (left < sim->chunk_cells ? left : sim->chunk_cells);
