@@ -1,21 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* internal.h: the simulation's own data, and which file does what.
-
-   base         report.c failures; digest.c; arithmetic.c the probe of the machine; eos.c, eos_lanes.h equations of
-   state;
-                kernels.c smoothing kernels; dmath.c deterministic functions; tensor.h, lanes.h vectors
-   data         options.c the list of options (options.h); grid.c; fields.c the list of state fields; layout.c the
-   arena
-                (arrays.h); scratch.h of threads; state.c
-   motion       sort.c orders particles by (cell, id), move.c where they go, faces.c the domain's faces, carry.c the
-   other
-                fields; sweep.c candidates of a cell go into tiles (tiles.c), sums come out; threads.c
-   physics      one file a subject; terms of the force loop are headers: README.md in this folder lists them
-   composition  forces.c the loop over pairs; columns.c what modules' candidates bring; integrators.c lists of passes
-   running      run.c programs, slices, threads, failure; limits.c the time step entries      config.c, init.c;
-   setup.c particles and boxes, bodies.c sets of fluid and solid, initial.c fields,
-                layers.c walls as rows or layers, shapes.c, flaws.c; reading.c, totals.c, probes.c; hash.c; dump.c,
-                restore.c on stream.c and records.c
+/* internal.h: the simulation's own data. Which file does what: README.md in this folder.
 
    Arrays: a state buffer holds what one moment of the scene is made of. A step reads buffer `cur`, writes another,
    and commits by changing `cur`: that is how a failed step leaves the state as it was. */
@@ -79,7 +63,7 @@ typedef struct sph_peaks {
     sph_real mu, acc, speed;
 } sph_peaks;
 
-/* constants of the pair formulas (fluid.c) */
+/* constants of the pair formulas (factors.c) */
 typedef struct sph_factors {
     sph_real inv_h, eta, reach, reach2, slope, value;
     sph_real inv_wdx, repulsion; /* artificial stress: 1/(W(dx) without its scale), epsilon */

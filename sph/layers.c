@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* layers.c: walls as rows or layers of particles; walls that are taken away, and motions given as a table. Runs
-   between steps only; what walls do in a step is in walls.c.
+   between steps only; what walls do in a step is in adami.c, boundary.c, groups.c and crossing.c.
 
    Ghost layers stand on the continuation of the fluid's lattice: centres half a spacing behind the wall, then one
    spacing apart, as many as the kernel's support needs (Gray 2001 section 2.4). Where two chosen faces of a tank

@@ -5,7 +5,7 @@
    another, and commits by making `next` and that buffer current. Until then nothing that the next step would read has
    changed; failing is forgetting. */
 #include "integrators.h"
-#include "limits.h"
+#include "timestep.h"
 #include "sweep.h"
 
 /* ---- running a program ---- */

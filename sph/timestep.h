@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* limits.h: the time step (limits.c). */
-#ifndef SPH_LIMITS_H
-#define SPH_LIMITS_H
+/* timestep.h: the time step (timestep.c). */
+#ifndef SPH_TIMESTEP_H
+#define SPH_TIMESTEP_H
 
 #include "internal.h"
 
