@@ -147,7 +147,8 @@ size_t cortexm_stack_bytes(void) { return (uintptr_t)cortexm_stack_high - (uintp
 
 size_t cortexm_static_bytes(void)
 {
-    return ((uintptr_t)cortexm_data_end - (uintptr_t)cortexm_data) + ((uintptr_t)cortexm_bss_end - (uintptr_t)cortexm_bss);
+    return ((uintptr_t)cortexm_data_end - (uintptr_t)cortexm_data) + ((uintptr_t)cortexm_bss_end -
+        (uintptr_t)cortexm_bss);
 }
 
 /* ---- start ---- */

@@ -3,7 +3,8 @@
    predictor-corrector; and a free block of n x n particles, of water and of a solid, for what a solid costs. Prints
    rows `name,value,unit,target,ok`; bench.sh compiles it several ways and gathers them.
 
-     bench PREFIX TARGET_RATE [full]    TARGET_RATE: M particle-steps/s of whole steps; full: all rows, else the rate only */
+     bench PREFIX TARGET_RATE [full]    TARGET_RATE: M particle-steps/s of whole steps; full: all rows, else the rate
+                                        only */
 #include <time.h>
 
 #include "bench_setups.h"

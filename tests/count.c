@@ -2,8 +2,8 @@
 /* count.c: runs one set-up for some steps under an instruction counter (count.sh) and prints the particle-steps it
    made: of every particle, walls too, after each step. Compiled for each build.
 
-     count SETUP N STEPS    bench: the dam break of bench.c; elastic, total: its block of a solid; default, no_books: the scene
-                            dam_break or dam_break_3d as it is, and without books */
+     count SETUP N STEPS    bench: the dam break of bench.c; elastic, total: its block of a solid; default, no_books:
+                            the scene dam_break or dam_break_3d as it is, and without books */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 

@@ -31,8 +31,8 @@ MODULE_WORDS = ["stress", "damage", "adami", "shepard", "xsph", "viscos", "morri
 NAMES = re.compile(r"(?<![a-z])(?:" + "|".join(MODULE_WORDS) + r")[a-z]*")
 LINKED = {"memcpy", "memset", "memmove", "sqrt", "sqrtf"}
 HEADERS = {"float.h", "stdbool.h", "stddef.h", "stdint.h", "string.h"}
-CALLS = r"\b(malloc|calloc|realloc|free|aligned_alloc|alloca|f?printf|sn?printf|puts|putchar|fopen|fwrite|fread|exit|abort|" \
-        r"powf?|expf?|logf?|sinf?|cosf?|tanf?|cbrtf?|floorf?|ceilf?|fabsf?|fmaf?|hypotf?)\s*\("
+CALLS = r"\b(malloc|calloc|realloc|free|aligned_alloc|alloca|f?printf|sn?printf|puts|putchar|fopen|fwrite|fread|" \
+        r"exit|abort|powf?|expf?|logf?|sinf?|cosf?|tanf?|cbrtf?|floorf?|ceilf?|fabsf?|fmaf?|hypotf?)\s*\("
 ROWS, WRONG = [], []
 
 

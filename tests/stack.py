@@ -11,7 +11,8 @@ import os
 import re
 import sys
 
-LIBRARY = 64  # bytes: memcpy, sqrt, __aeabi_dmul and the like; the deepest, __aeabi_uldivmod, takes 52 with what it calls
+# bytes: memcpy, sqrt, __aeabi_dmul and the like; the deepest, __aeabi_uldivmod, takes 52 with what it calls
+LIBRARY = 64
 HOST = "host"
 
 # what a call through a pointer may reach: pattern of the call in its source line, then where the pointers come from:

@@ -371,7 +371,8 @@ static void the_constant_bound_holds_and_is_close(void **state)
                 c.xsph = bits & SPH_USE_XSPH ? 0.5 : 0;
                 c.books = (bits & SPH_USE_BOOKS) != 0;
                 c.shepard_every = bits & SPH_USE_FILTER ? 20 : 0;
-                c.solid = bits & SPH_USE_TOTAL ? SPH_TOTAL : bits & SPH_USE_CORRECTED ? SPH_CORRECTED : bits & SPH_USE_SOLID ? SPH_UPDATED : 0;
+                c.solid = bits & SPH_USE_TOTAL ? SPH_TOTAL : bits & SPH_USE_CORRECTED ? SPH_CORRECTED :
+                    bits & SPH_USE_SOLID ? SPH_UPDATED : 0;
                 c.yield = bits & SPH_USE_YIELD ? SPH_VON_MISES : SPH_NO_YIELD;
                 c.damage = bits & SPH_USE_DAMAGE ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
                 c.max_flaws = flaws;
@@ -409,7 +410,8 @@ static void the_arena_report_adds_up(void **state)
     assert_true(u.step_work > u.particles && u.sets == 1 && u.groups == 0 && u.cells > 1);
     /* the bound that sph_step_slice states, for two sweeps (forces, filter) */
     const uint64_t around = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27;
-    assert_true(u.step_work <= 2 * (around * u.cell_particles * u.particles + u.cells + 32) + 16u * (uint64_t)u.particles);
+    assert_true(u.step_work <= 2 * (around * u.cell_particles * u.particles + u.cells + 32) + 16u *
+                (uint64_t)u.particles);
 }
 
 /* what a particle costs: all arrays, by the names of the report, over the room for particles */

@@ -162,7 +162,8 @@ static void accelerate(const elastic_state *e, int i, double h)
         if (pair(i, j, h, true, grad, &w)) {
             double t[3];
             for (int k = 0; k < 3; k++)
-                t[k] = e->rho * (part[i].s[k] / (part[i].rho * part[i].rho) + part[j].s[k] / (part[j].rho * part[j].rho) +
+                t[k] = e->rho * (part[i].s[k] / (part[i].rho * part[i].rho) + part[j].s[k] / (part[j].rho *
+                    part[j].rho) +
                                  (part[i].r[k] + part[j].r[k]) * pow(w / w_dp, e->n));
             part[i].acc[0] += t[0] * grad[0] + t[2] * grad[1];
             part[i].acc[1] += t[2] * grad[0] + t[1] * grad[1];
@@ -187,7 +188,8 @@ static void column(const elastic_state *e, uint32_t lattice, double h, const dou
         for (int i = 0; i < SIDE * SIDE; i++) {
             accelerate(e, i, h);
             for (int l = 0; l < 2; l++)
-                out[l] -= sign * part[i].acc[l] * cos(k[0] * part[i].x[0] + k[1] * part[i].x[1]) / (small * SIDE * SIDE);
+                out[l] -= sign * part[i].acc[l] * cos(k[0] * part[i].x[0] + k[1] * part[i].x[1]) / (small * SIDE *
+                    SIDE);
         }
     }
 }

@@ -192,7 +192,8 @@ static double *number_of(sph_config *c, uint32_t i)
 {
     double *const list[] = {&c->spacing, &c->smoothing_length, &c->rho0, &c->sound_speed, &c->alpha, &c->beta, &c->nu,
                             &c->delta,
-                            &c->xsph, &c->damping, &c->dt, &c->cfl, &c->viscous_factor, &c->force_factor, &c->gravity_factor,
+                            &c->xsph, &c->damping, &c->dt, &c->cfl, &c->viscous_factor, &c->force_factor,
+                            &c->gravity_factor,
                             &c->dt_max, &c->dt_min, &c->stress_epsilon, &c->max_stretch};
     const uint32_t k = (i - PLAIN) / 3;
     return i < PLAIN ? list[i] : (i - PLAIN) % 3 == 0 ? &c->lo[k] : (i - PLAIN) % 3 == 1 ? &c->hi[k] : &c->gravity[k];
@@ -973,8 +974,10 @@ typedef struct row {
 } row;
 #define ROW(name) {#name, row_##name}
 static const row rows[] = {
-    ROW(status_text), ROW(limit_text), ROW(config_default), ROW(config_check), ROW(arena_bytes), ROW(init), ROW(arena_report),
-    ROW(get_usage), ROW(last), ROW(reconfigure), ROW(add_fluid), ROW(add_solid), ROW(add_particle), ROW(add_box), ROW(add_ring),
+    ROW(status_text), ROW(limit_text), ROW(config_default), ROW(config_check), ROW(arena_bytes), ROW(init),
+    ROW(arena_report),
+    ROW(get_usage), ROW(last), ROW(reconfigure), ROW(add_fluid), ROW(add_solid), ROW(add_particle), ROW(add_box),
+    ROW(add_ring),
 #if SPH_DIM == 2
     ROW(add_polygon), ROW(add_wall_segment),
 #endif
@@ -984,9 +987,11 @@ static const row rows[] = {
 #if SPH_DIM > 1
     ROW(add_flaws), ROW(get_flaws),
 #endif
-    ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(motion_steady), ROW(wall_default), ROW(add_wall_box),
+    ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(motion_steady), ROW(wall_default),
+    ROW(add_wall_box),
     ROW(remove_wall), ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel),
-    ROW(get_step), ROW(time), ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge), ROW(extent), ROW(kernel_value),
+    ROW(get_step), ROW(time), ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge),
+    ROW(extent), ROW(kernel_value),
     ROW(kernel_support), ROW(hash), ROW(dump), ROW(restore),
 };
 

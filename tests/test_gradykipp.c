@@ -78,7 +78,8 @@ static void the_printed_sizes_come_out(void **state)
         const double rounded = gradykipp_peak_printed(&g), peak = gradykipp_peak(&g);
         g.k = pow(5e28, 2 / 3.0);
         const double exact = gradykipp_peak_printed(&g);
-        print_message("gradykipp: rate %g, size by 6.18 %.4f, with k not rounded %.4f, printed %.2f; maximum of 6.17 %.4f\n",
+        print_message("gradykipp: rate %g, size by 6.18 %.4f, with k not rounded %.4f, printed %.2f; maximum of 6.17 "
+                      "%.4f\n",
                       rate[i], rounded, exact, printed[i], peak);
         close_to(rounded, printed[i], i < 2 ? 0.005 : 0.01);
         assert_true(fmin(fabs(rounded - printed[i]), fabs(exact - printed[i])) < 0.005);
@@ -95,7 +96,8 @@ static int run(const char *a)
 static void bad_input_is_refused(void **state)
 {
     static const char *const bad[] = {"k=0",        "k=-1", "k=inf",   "m=0.5",   "m=",      "c=0", "rate=0",
-                                      "rate=1,,2",  "rate=1,2,3,4,5,6,7,8,9", "dim=4", "dim=0", "points=1", "plot=x.jpg",
+                                      "rate=1,,2",  "rate=1,2,3,4,5,6,7,8,9", "dim=4", "dim=0", "points=1",
+                                      "plot=x.jpg",
                                       "strain=1e-3", "7"};
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)

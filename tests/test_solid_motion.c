@@ -39,7 +39,8 @@ static sph_sim *held_block(uint32_t form, uint32_t integrator, uint32_t motion, 
     c.dt = 1e-4;
     c.gravity[SPH_DIM - 1] = -10;
     m.motion = motion == REST ? NULL : motion == TABLE ? sph_motion_table : sph_motion_steady;
-    m.motion_ctx = motion == REST ? NULL : motion == TABLE ? (void *)(uintptr_t)&table : (void *)(uintptr_t)&steady[motion];
+    m.motion_ctx = motion == REST ? NULL : motion == TABLE ? (void *)(uintptr_t)&table :
+        (void *)(uintptr_t)&steady[motion];
     sph_sim *sim = new_sim(&c);
     must(sim, sph_add_solid(sim, &m, &set, group));
     add_block(sim, set, 3, DX, 0);
@@ -449,7 +450,8 @@ static void a_broken_bond_stays_broken(void **state)
     double pushed, again;
     (void)state;
     const double whole = pull_bar(false, NULL, NULL), broken = pull_bar(true, &pushed, &again);
-    print_message("of 2 m/s, halves of a whole bar part at %.3f, of a broken one at %.3f; pushed %.3f, pulled again %.3f\n",
+    print_message("of 2 m/s, halves of a whole bar part at %.3f, of a broken one at %.3f; pushed %.3f, pulled again "
+                  "%.3f\n",
                   whole, broken, pushed, again);
     assert_true(whole < 0.5 && broken > 0.9 * 2 && pushed > -0.9 * 2 && again > 0.9 * 2);
 }

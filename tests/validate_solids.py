@@ -13,7 +13,8 @@ from validation import Run, interpolate, main, read_table, slope, zero_crossings
 
 
 def period(run):
-    """Twice the mean time between crossings of the mid-line, from the second on (the first is half a period after the start)."""
+    """Twice the mean time between crossings of the mid-line, from the second on (the first is half a period after the
+    start)."""
     t = zero_crossings(run.col("time"), run.col("tip"))
     t = [x for x in t if x > 1]
     return 2 * (t[-1] - t[0]) / (len(t) - 1) if len(t) > 1 else 2 * t[0]
@@ -174,10 +175,11 @@ GROUPS.append(g12)
 
 # ---- G13: a periodic box of particles in compression and tension (Gray 2001, 5.6.5, 5.6.6) ----
 # What the dispersion relation says of waves in every direction (sph dispersion curve), which G23 shows to be right:
-# - tension, h 1.0: epsilon above 0.21 stops the waves that clump the square lattice, and any above 0.07 lets columns slip past
-#   each other (Gray's 5.75, of which he says that it does not clump), towards the face-centred lattice; that one still clumps
-#   at epsilon 0.3. At lambda 0.9 and h 1.3 or 1.5 it is stable from epsilon 0.2 on.
-# - compression: at h 1.0 the square lattice slips and the face-centred one is stable; at h 1.5 both break up, into pairs.
+# - tension, h 1.0: epsilon above 0.21 stops the waves that clump the square lattice, and any above 0.07 lets columns
+#   slip past each other (Gray's 5.75, of which he says that it does not clump), towards the face-centred lattice; that
+#   one still clumps at epsilon 0.3. At lambda 0.9 and h 1.3 or 1.5 it is stable from epsilon 0.2 on.
+# - compression: at h 1.0 the square lattice slips and the face-centred one is stable; at h 1.5 both break up, into
+#   pairs.
 
 def in_fours(run):
     """Share of the particles that stand in clumps of just four, by links shorter than the spacing of the lattice they
@@ -432,7 +434,8 @@ TIPS = {}  # what tip_speeds found, by the run's name
 
 def tip_speeds(run):
     """Speeds of the two tips of the crack that is first broken (D > 0.99) through: least squares through where either
-    tip is whenever it has moved on. A tip is the end along y of the broken particles that hang together, by reference places."""
+    tip is whenever it has moved on. A tip is the end along y of the broken particles that hang together, by reference
+    places."""
     if run.name in TIPS:
         return TIPS[run.name]
     history, dumps = run.col("time"), run.dumps()

@@ -147,7 +147,8 @@ def main(cases, name, doc):
         for run in pool.map(lambda r: (r.go(a.tool, a.keep), r)[1], todo):
             done += 1
             left = (time.time() - start) / done * (len(todo) - done)
-            print(f"[{done}/{len(todo)}] {run.name}: {run.error or 'done'} in {run.seconds:.0f} s, about {left:.0f} s left",
+            print(f"[{done}/{len(todo)}] {run.name}: {run.error or 'done'} in {run.seconds:.0f} s, about {left:.0f} s "
+                  f"left",
                   file=sys.stderr, flush=True)
     missed, lines = 0, []
     for row, unit, target, rr, figure in rows:

@@ -92,9 +92,9 @@ static void totals(const build_sim *s, build_totals *out)
 {
     sph_totals o;
     sph_get_totals(s->sim, &o);
-    *out = (build_totals){o.fluid,        o.wall,       o.solid,   o.mass,       {0, 0, 0},      o.kinetic,     o.potential,
-                          o.internal,     o.elastic,    o.plastic_work, o.wall_work, o.dissipated, o.diffused,
-                          o.removed_mass, o.max_speed,  o.min_density,  o.max_density};
+    *out = (build_totals){o.fluid,     o.wall,    o.solid,        o.mass,      {0, 0, 0},    o.kinetic,
+                          o.potential, o.internal, o.elastic,     o.plastic_work, o.wall_work, o.dissipated,
+                          o.diffused,  o.removed_mass, o.max_speed, o.min_density, o.max_density};
     for (int k = 0; k < SPH_DIM; k++)
         out->momentum[k] = o.momentum[k];
 }

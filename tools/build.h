@@ -24,8 +24,8 @@ typedef struct build_host {
 
 typedef struct build_totals {
     uint32_t fluid, wall, solid;
-    double mass, momentum[3], kinetic, potential, internal, elastic, plastic_work, wall_work, dissipated, diffused, removed_mass, max_speed,
-        min_density, max_density;
+    double mass, momentum[3], kinetic, potential, internal, elastic, plastic_work, wall_work, dissipated, diffused,
+        removed_mass, max_speed, min_density, max_density;
 } build_totals;
 
 typedef struct build_sim build_sim; /* a simulation with its arena, scene and parameters */

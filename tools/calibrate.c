@@ -16,7 +16,8 @@ static void pairs_of(uint32_t i)
     const float xi = x[i], yi = y[i];
     for (uint32_t j = 0; j < POINTS; j += LANES)
         for (uint32_t k = 0; k < LANES; k++) {
-            const float dx = xi - x[j + k], dy = yi - y[j + k], q = 1 - (dx * dx + dy * dy), c = q > 0 ? q : 0, f = c * c * c * (4 - 3 * c);
+            const float dx = xi - x[j + k], dy = yi - y[j + k], q = 1 - (dx * dx + dy * dy), c = q > 0 ? q : 0,
+                f = c * c * c * (4 - 3 * c);
             lane[0][k] += f * dx;
             lane[1][k] += f * dy;
         }

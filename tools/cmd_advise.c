@@ -16,10 +16,13 @@ static const char help[] =
     "  error=      with the unit of the study's norm, as 2% or 0.1cm\n"
     "  precision=  only runs in it; both unless given\n"
     "  cost=       instructions of the whole run (counted, default build), or candidate pairs looked at\n"
-    "  study=      one study; a scene may have several, with norms of their own: what is chosen meets all of that unit\n"
+    "  study=      one study; a scene may have several, with norms of their own: what is chosen meets all of that "
+    "unit\n"
     "  step=       any: runs whose time step was set by hand too, some at the edge of what is stable\n"
-    "Exit code 1 where nothing is known: no study of the scene, or no run that reaches the error. Runs that blew up or\n"
-    "did not reach their end are left out, and those that were right by luck: finer runs of the same method are more than twice as\n"
+    "Exit code 1 where nothing is known: no study of the scene, or no run that reaches the error. Runs that blew up "
+    "or\n"
+    "did not reach their end are left out, and those that were right by luck: finer runs of the same method are more "
+    "than twice as\n"
     "wrong, or coarser ones so much that no method of the fourth order could have come from there.\n";
 
 enum { MOST_STUDIES = 32 };

@@ -24,7 +24,8 @@ static const char help[] =
     "curve: omega of the longitudinal and the transverse mode against k\n"
     "  lattice=square kernel=cubic h=1.5 n=4     h in spacings\n"
     "  angle=0 kmax=1 points=100                 direction of k in degrees, largest k in pi/spacing\n"
-    "  spacing=1 rho=1 c=1 mu=0.22               spacing, density, bulk wave speed, shear modulus, any one system of units\n"
+    "  spacing=1 rho=1 c=1 mu=0.22               spacing, density, bulk wave speed, shear modulus, any one system of "
+    "units\n"
     "  pressure=0 sxx=0 syy=0                    the stress at rest; sxx, syy deviatoric, positive in tension\n"
     "  epsilon=0.3                               of the artificial stress\n"
     "  artificial=changing|frozen                it changes with the wave (default), or is constant as in Gray 5.65\n"
@@ -213,7 +214,8 @@ static void put_curve(FILE *f, const curve_options *o)
     fprintf(f,
             "# dispersion: lattice %s, kernel %s, h/dp %g, angle %g, rho %g, c %g, mu %g, pressure %g, sxx %g, syy %g, "
             "epsilon %g, n %g, xsph %g\n"
-            "k_dp_over_pi,k,omega2_long,omega2_trans,omega2_imag,omega_long,omega_trans,growth_long,growth_trans,exact_long,"
+            "k_dp_over_pi,k,omega2_long,omega2_trans,omega2_imag,omega_long,omega_trans,growth_long,growth_trans,"
+            "exact_long,"
             "exact_trans,long_over_exact,trans_over_exact\n",
             lattice_names[o->lattice], dispersion_kernels[o->kernel], o->h, o->angle, e->rho, e->c, e->mu, e->pressure,
             e->s[0], e->s[1], e->epsilon, e->n, e->xsph);
@@ -287,7 +289,8 @@ static bool parse_numbers(int argc, char **argv, curve_options *o)
         double low, high, *value;
     } list[] = {{"h", 0.6, 20, &o->h},          {"angle", -360, 360, &o->angle},     {"kmax", 1e-6, 10, &o->kmax},
                 {"n", 0, 20, &e->n},            {"spacing", 1e-9, 1e9, &o->spacing}, {"rho", 1e-9, 1e12, &e->rho},
-                {"c", 1e-9, 1e9, &e->c},        {"mu", 0, 1e15, &e->mu},             {"pressure", -1e15, 1e15, &e->pressure},
+                {"c", 1e-9, 1e9, &e->c},        {"mu", 0, 1e15, &e->mu},             {"pressure", -1e15, 1e15,
+                    &e->pressure},
                 {"sxx", -1e15, 1e15, &e->s[0]}, {"syy", -1e15, 1e15, &e->s[1]},      {"epsilon", 0, 10, &e->epsilon},
                 {"xsph", 0, 1, &e->xsph}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
@@ -336,7 +339,8 @@ int cmd_dispersion(int argc, char **argv)
 {
     static const char *const of_tables[] = {"lattice", "kernel", "n", "k", "h", "printed", NULL};
     static const char *const of_curve[] = {"lattice", "kernel", "h",  "n",   "angle", "kmax",     "points",  "spacing",
-                                           "rho",     "c",      "mu", "sxx", "syy",   "pressure", "epsilon", "artificial",
+                                           "rho",     "c",      "mu", "sxx", "syy",   "pressure", "epsilon",
+                                           "artificial",
                                            "xsph",    "xsph_in", "out", "plot", NULL};
     host_command("dispersion");
     if (host_help(argc, argv, help))

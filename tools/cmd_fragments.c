@@ -17,13 +17,18 @@ static const char help[] =
     "Pieces of the solid sets: particles of damage D below a threshold, linked when closer than link spacings.\n"
     "  damage=0.5     a particle above it bears less than half of its tension and counts as broken, part of no piece.\n"
     "                 The number of pieces at other thresholds is printed too; where it varies, look at a picture\n"
-    "  link=1.5       in spacings; 1.5 links diagonal neighbours of a square lattice, which still pull at each other, and\n"
-    "                 not across a row of broken particles. Material stretched by more than 6 % without damage needs more\n"
-    "  across=no      particles of different bodies (materials.body of the dump) are not linked: in contact they are two\n"
+    "  link=1.5       in spacings; 1.5 links diagonal neighbours of a square lattice, which still pull at each other, "
+    "and\n"
+    "                 not across a row of broken particles. Material stretched by more than 6 % without damage needs "
+    "more\n"
+    "  across=no      particles of different bodies (materials.body of the dump) are not linked: in contact they are "
+    "two\n"
     "  least=1        pieces of fewer particles count as broken\n"
-    "  by=length      what the histogram is of: the longest edge of a piece's box, or the diameter of the disc or ball\n"
+    "  by=length      what the histogram is of: the longest edge of a piece's box, or the diameter of the disc or "
+    "ball\n"
     "                 of its volume (mass over rho0)\n"
-    "  k= m= c= rate= adds the density of Grady and Kipp to the histogram (sph gradykipp), SI units: k per m, m^2 or m^3\n"
+    "  k= m= c= rate= adds the density of Grady and Kipp to the histogram (sph gradykipp), SI units: k per m, m^2 or "
+    "m^3\n"
     "  out=           pieces as CSV, largest first; histogram=: bins as CSV, of all the dumps together\n";
 
 typedef struct options {
@@ -242,7 +247,8 @@ static void print_pieces(const dump_file *d, const body *b, const options *o, co
         if (i < shown)
             printf("%5u %9u %8u %4u %12.6g %7.3f%% %11.5g %11.5g %11.5g %11.5g %11.5g\n", i + 1, q->particles,
                    q->first_id,
-                   q->set, q->mass, 100 * q->mass / b->mass, q->length, q->diameter, q->edge[0], q->edge[1], q->edge[2]);
+                   q->set, q->mass, 100 * q->mass / b->mass, q->length, q->diameter, q->edge[0], q->edge[1],
+                       q->edge[2]);
     }
     if (shown < p->n)
         printf("      ... and %u smaller ones\n", p->n - shown);
@@ -272,7 +278,8 @@ static bool write_pieces(const dump_file *d, const body *b, const pieces *p, con
     for (uint32_t i = 0; i < p->n; i++) {
         const piece *q = &p->list[i];
         fprintf(h.f, "%u,%u,%u,%u,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", i + 1, q->particles,
-                q->first_id, q->set, q->mass, q->mass / b->mass, q->length, q->diameter, q->edge[0], q->edge[1], q->edge[2],
+                q->first_id, q->set, q->mass, q->mass / b->mass, q->length, q->diameter, q->edge[0], q->edge[1],
+                q->edge[2],
                 q->centre[0], q->centre[1], q->centre[2]);
     }
     return host_finish(&h, true);

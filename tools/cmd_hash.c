@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* cmd_hash.c: sph hash. For a full dump the number that sph_hash gave of that state (the mixing is that of sph/digest.c);
+/* cmd_hash.c: sph hash. For a full dump the number that sph_hash gave of that state (the mixing is that of
+   sph/digest.c);
    for a reduced one a digest of its arrays. */
 #include "commands.h"
 #include "dumpfile.h"

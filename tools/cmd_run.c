@@ -357,7 +357,8 @@ static void write_cost(run *r)
     r->b->info(r->sim, &info);
     const double s = seconds(r->stepping), unit = calibrate();
     fprintf(f,
-            "name,value,unit\nparticles,%u,-\nsteps,%llu,-\nparticle_steps,%llu,-\npairs,%llu,-\ntime,%.10g,s\nend,%.10g,s\n",
+            "name,value,unit\nparticles,%u,-\nsteps,%llu,-\nparticle_steps,%llu,-\npairs,%llu,-\ntime,%.10g,s\n"
+            "end,%.10g,s\n",
             r->b->count(r->sim), (unsigned long long)(info.step - r->first_step), (unsigned long long)r->particle_steps,
             (unsigned long long)r->pairs, info.time, r->end);
     fprintf(f, "seconds,%.6g,s\ncalibration,%.6g,s\ncalibrations,%.6g,-\n", s, unit, s / unit);

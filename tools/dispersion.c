@@ -4,7 +4,8 @@
    Linearised: r_a = ra0 + X e^(i k.r - i w t), v = V e^..., D of density, T of deviatoric stress, u = smoothed velocity
    (1 - xsph beta) V, m = rho dp^2. Sums over an even lattice leave
      X = i u/w,   D = -(rho/w) a.u,   gradient L_ij = d_j v_i = -i a_j u_i
-     T_xx = (2 mu/3 w)(2 u_x a_x - u_y a_y),  T_yy likewise,  T_xy = (1/w)[mu (a_y u_x + a_x u_y) + z (a_y u_x - a_x u_y)]
+     T_xx = (2 mu/3 w)(2 u_x a_x - u_y a_y),  T_yy likewise,  T_xy = (1/w)[mu (a_y u_x + a_x u_y) + z (a_y u_x - a_x
+     u_y)]
    with z = (S_yy - S_xx)/2 (Jaumann rate), and from the momentum equation w^2 V = K u with, of the term sigma/rho^2,
      K_il = -(2/rho) sigma_ij b_jl  +  [c^2 delta_ij + (2/rho) sigma_ij] a_j a_l  +  (w/rho) T_ij a_j / u_l
    and of the artificial stress
@@ -18,7 +19,8 @@
      5.61, B.59  signs of the mu terms (B.58 has them right)
      5.62, B.72  zeta as above
      5.66, 5.69  the artificial stress enters with a minus sign (5.71 has it), and (1 - beta) only once
-     5.76, 5.77  the factor 2 belongs to the stress term alone, R carries rho^2, A_x^2 (mu + zeta) carries (1 - beta)/rho
+     5.76, 5.77  the factor 2 belongs to the stress term alone, R carries rho^2, A_x^2 (mu + zeta) carries (1 -
+     beta)/rho
      5.65        R is taken as constant; it changes with the wave (g, dR above) unless `frozen`. */
 #define SPH_DIM 2
 #define SPH_DOUBLE 1

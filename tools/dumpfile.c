@@ -340,7 +340,8 @@ uint32_t dump_role(const dump_file *d, uint32_t i)
     return set == DUMP_DEAD ? DUMP_GONE : small(dump_number(d, "sets", "role", set, 0));
 }
 bool dump_is_wall(uint32_t role) { return role == DUMP_GHOST || role == DUMP_FORCE_WALL; }
-bool dump_periodic(const dump_file *d, uint32_t axis) { return dump_number(d, "scene", "face", 0, 2 * axis) == PERIODIC; }
+bool dump_periodic(const dump_file *d, uint32_t axis) { return dump_number(d, "scene", "face", 0,
+    2 * axis) == PERIODIC; }
 double dump_x(const dump_file *d, uint32_t i, uint32_t axis)
 {
     return d->lo[axis] + d->quantum * dump_value(d->pos, axis, i);

@@ -38,7 +38,8 @@ typedef struct dump_file {
 /* Reads, checks every checksum and everything that later calls rely on. False after a message that says why. */
 bool dump_open(dump_file *d, const char *name);
 void dump_close(dump_file *d);
-/* What info, verify and hash share: reads the dumps that a command was given and calls each(dump, name); the exit code. */
+/* What info, verify and hash share: reads the dumps that a command was given and calls each(dump, name); the exit
+   code. */
 int dump_each(int argc, char **argv, const char *command, const char *help,
               bool (*each)(const dump_file *d, const char *name));
 /* What a restore would ask besides: ids once each, finite values, positions inside. False after a message. */
@@ -73,7 +74,8 @@ bool dump_periodic(const dump_file *d, uint32_t axis);        /* does the domain
 /* Fields by name (dumpfields.c). Fills out[0..n) and the unit; false after a message if the dump does not carry it.
    dump_has_field asks without a message; dump_field_signed: do its values spread around 0, as stresses do?
    Stress is what the particle bears (Gray 5.33, 5.34): (1 - D) S - P, and of P the factor in tension only; positive in
-   tension. mean_stress is a third of its trace in space, stress_sum that in the plane, which Gray calls the mean stress.
+   tension. mean_stress is a third of its trace in space, stress_sum that in the plane, which Gray calls the mean
+   stress.
    damage is D; the array of that name holds D^(1/dim). */
 #define DUMP_FIELDS \
     "x y z velocity_x.. speed density pressure acceleration_x.. stress_xx stress_yy stress_xy.. mean_stress " \

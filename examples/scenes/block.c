@@ -97,8 +97,8 @@ static double gas_pressure(const sph_sim *sim)
 static void history(const sph_sim *sim, const double *p, double *row)
 {
     const stretch b = block(p);
-    const double p1 = stretch_end_stress(sim,
-                                         0.4 * p[SIZE]), gas = p[KIND] == WITH_LOAD ? p[GAS] * p[GAS] : gas_pressure(sim);
+    const double p1 = stretch_end_stress(sim, 0.4 * p[SIZE]);
+    const double gas = p[KIND] == WITH_LOAD ? p[GAS] * p[GAS] : gas_pressure(sim);
     stretch_broken d;
     sph_totals o;
     sph_get_totals(sim, &o);

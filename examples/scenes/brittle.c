@@ -55,7 +55,8 @@ static double end(const double *p) { return p[PLATE_DURATION]; }
 /* pull: mean stress_xx of the middle; broken: share of the middle with D > 0.99; crack_*: extent in x and y of those */
 static const char *const column[] = {"time_cm/c0", "strain", "pull", "largest_stress", "damage_mean", "broken",
                                      "crack_left_cm",
-                                     "crack_right_cm", "crack_low_cm", "crack_high_cm", "closest_dp", "kinetic", "elastic",
+                                     "crack_right_cm", "crack_low_cm", "crack_high_cm", "closest_dp", "kinetic",
+                                     "elastic",
                                      "internal", "dissipated", "work"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
@@ -75,7 +76,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
         volume += q.mass / q.rho;
         pull += q.mass / q.rho * q.stress[0];
         damage += q.damage;
-        const double middle = 0.5 * (q.stress[0] + q.stress[1]), half = 0.5 * (q.stress[0] - q.stress[1]), xy = q.stress[3];
+        const double middle = 0.5 * (q.stress[0] + q.stress[1]), half = 0.5 * (q.stress[0] - q.stress[1]),
+            xy = q.stress[3];
         const double most = middle + __builtin_sqrt(half * half + xy * xy);
         largest = most > largest ? most : largest;
         if (q.damage > 0.99) {

@@ -76,8 +76,10 @@ static sph_status build(sph_sim *sim, const double *p)
 
 static double end(const double *p) { return (p[AT] + p[AFTERWARDS]) * p[STRETCH_SLOW]; }
 
-static const char *const column[] = {"time",   "strain",      "pressure",       "p1_K",   "kinetic",      "elastic",   "plastic_work",
-                                     "peak_K", "damage_mean", "full_particles", "full_x", "full_surface", "full_left", "full_right",
+static const char *const column[] = {"time",   "strain",      "pressure",       "p1_K",   "kinetic",      "elastic",
+                                     "plastic_work",
+                                     "peak_K", "damage_mean", "full_particles", "full_x", "full_surface", "full_left",
+                                     "full_right",
                                      "full_below", "dome_km"};
 
 static void history(const sph_sim *sim, const double *p, double *row)

@@ -46,8 +46,10 @@ static double end(const double *p) { return p[STRETCH_PULL] * p[STRETCH_SLOW] + 
 
 static const char *const column[] = {
     "time", "drawn_a", "p1_K", "kinetic", "elastic", "peak", "peak_x",
-    "s_0", "s_0.25", "s_0.5", "s_0.75", "s_1", "s_1.25", "s_1.5", "s_1.75", "s_2", "s_2.25", "s_2.5", "s_2.75", "s_3", "s_3.25",
-    "s_3.5", "s_3.75", "s_4", "s_4.25", "s_4.5", "s_4.75", "s_5", "s_5.25", "s_5.5", "s_5.75", "s_6", "s_6.25", "s_6.5", "s_6.75",
+    "s_0", "s_0.25", "s_0.5", "s_0.75", "s_1", "s_1.25", "s_1.5", "s_1.75", "s_2", "s_2.25", "s_2.5", "s_2.75", "s_3",
+    "s_3.25",
+    "s_3.5", "s_3.75", "s_4", "s_4.25", "s_4.5", "s_4.75", "s_5", "s_5.25", "s_5.5", "s_5.75", "s_6", "s_6.25", "s_6.5",
+    "s_6.75",
     "s_7", "s_7.25", "s_7.5", "s_7.75", "s_8", "s_8.25", "s_8.5", "s_8.75", "s_9", "s_9.25", "s_9.5", "s_9.75", "s_10"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
@@ -73,7 +75,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
     }
     /* top of the parabola through three stations; the stress is even in x */
     const int last = STATIONS - 1, k = most < last ? most : last - 1;
-    const double l = s[k > 0 ? k - 1 : 1], r = s[k + 1], bend = l - 2 * s[k] + r, off = bend < 0 ? 0.5 * (l - r) / bend : 0;
+    const double l = s[k > 0 ? k - 1 : 1], r = s[k + 1], bend = l - 2 * s[k] + r,
+        off = bend < 0 ? 0.5 * (l - r) / bend : 0;
     row[5] = s[k] - 0.25 * (l - r) * off;
     row[6] = 0.25 * (k + off);
 }

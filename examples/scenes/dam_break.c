@@ -108,7 +108,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
     sph_extent(sim, 0, &back, &front);
     sph_gauge(sim, at, 1, &height);
     const double values[] = {sph_time(sim), sph_time(sim) * rate(p), (front - lo[0] + 0.5 * spacing(p)) / p[A],
-                             (height - lo[1]) / (p[N2] * p[A]), o.kinetic, o.potential, o.internal, o.wall_work, o.dissipated,
+                             (height - lo[1]) / (p[N2] * p[A]), o.kinetic, o.potential, o.internal, o.wall_work,
+                             o.dissipated,
                              o.diffused, o.mass, o.fluid};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];

@@ -50,8 +50,10 @@ static double end(const double *p) { return p[STRETCH_PULL] * p[STRETCH_SLOW] + 
 
 static const char *const column[] = {"time", "drawn_cm", "p1_K", "kinetic", "elastic", "peak_particle", "peak_rim",
                                      "at_deg",
-                                     "rim_0", "rim_5", "rim_10", "rim_15", "rim_20", "rim_25", "rim_30", "rim_35", "rim_40", "rim_45",
-                                     "rim_50", "rim_55", "rim_60", "rim_65", "rim_70", "rim_75", "rim_80", "rim_85", "rim_90"};
+                                     "rim_0", "rim_5", "rim_10", "rim_15", "rim_20", "rim_25", "rim_30", "rim_35",
+                                     "rim_40", "rim_45",
+                                     "rim_50", "rim_55", "rim_60", "rim_65", "rim_70", "rim_75", "rim_80", "rim_85",
+                                     "rim_90"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {

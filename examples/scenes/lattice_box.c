@@ -189,7 +189,8 @@ static void order_of_holes(const sph_sim *sim, const double *p, order *o)
 }
 
 static const char *const column[] = {"time_cm/c0",    "nearest_min_dx", "nearest_mean_dx", "face_centred_-", "hole_dx",
-                                     "kinetic_K.cm2", "stress_mean_K",  "stress_rms_K",    "along_c0",       "across_c0"};
+                                     "kinetic_K.cm2", "stress_mean_K",  "stress_rms_K",    "along_c0",
+                                     "across_c0"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {

@@ -121,7 +121,8 @@ static double fit_crest(const sph_sim *sim, const double *p, double reach, doubl
     for (int k = 0; k < 4; k++)
         c[k] = a[k][k] > 0 ? a[k][4] / a[k][k] : 0;
     for (int turn = 0; turn < 20; turn++) { /* Newton's steps to where the slope is 0 */
-        const double bend = 2 * c[2] + 6 * c[3] * s, step = bend < 0 ? -(c[1] + 2 * c[2] * s + 3 * c[3] * s * s) / bend : 0;
+        const double bend = 2 * c[2] + 6 * c[3] * s, step = bend < 0 ? -(c[1] + 2 * c[2] * s + 3 * c[3] * s *
+            s) / bend : 0;
         s = s + step > 0.5 ? 0.5 : s + step < -0.5 ? -0.5 : s + step;
     }
     *at += s * reach;
@@ -170,8 +171,10 @@ static double half_width(const sph_sim *sim, const double *p, double at, double 
     return side[0] > 0 && side[1] > 0 ? (side[0] + side[1]) * bin : 0;
 }
 
-static const char *const column[] = {"time_cm/c0",     "right_x_cm",    "left_x_cm",     "right_exact_cm", "left_exact_cm",
-                                     "right_small_cm", "left_small_cm", "right_v_c0",    "left_v_c0",      "right_width_cm",
+static const char *const column[] = {"time_cm/c0",     "right_x_cm",    "left_x_cm",     "right_exact_cm",
+                                     "left_exact_cm",
+                                     "right_small_cm", "left_small_cm", "right_v_c0",    "left_v_c0",
+                                     "right_width_cm",
                                      "left_width_cm",  "kinetic_K.cm2", "elastic_K.cm2", "compression_K.cm2",
                                      "dissipated_K.cm2"};
 

@@ -53,7 +53,8 @@ static double end(const double *p) { return p[DURATION]; }
 
 static const char *const column[] = {"time_cm/c0", "time_us", "width_cm", "width_right_cm", "height_cm",
                                      "height_right_cm",
-                                     "separation_cm", "momentum_left", "speed_left_c0", "kinetic", "internal", "elastic",
+                                     "separation_cm", "momentum_left", "speed_left_c0", "kinetic", "internal",
+                                     "elastic",
                                      "dissipated", "energy", "closest_dp"};
 
 static void history(const sph_sim *sim, const double *p, double *row)

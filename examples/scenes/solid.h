@@ -17,7 +17,7 @@ enum {
     SOLID_PARAMS_DAMPED(kernel_, h_, alpha_, books_, integrator_, cfl_, form_, repulsion_, mu_, yield_, 1)
 #define SOLID_PARAMS_DAMPED(kernel_, h_, alpha_, books_, integrator_, cfl_, form_, repulsion_, mu_, yield_, damping_)  \
     SCENE_PARAMS_OF(kernel_, h_, SPH_LINEAR, SPH_ARTIFICIAL, alpha_, SPH_NO_DIFFUSION, SCENE_ADAMI, damping_, 0,       \
-                    books_, integrator_, cfl_, 0),                                                                                \
+                    books_, integrator_, cfl_, 0),                                                                     \
     {"form", "-", "solid form: updated corrected total", (form_) - 1, 0, 2, SCENE_CHOICE},                             \
     {"repulsion", "-", "artificial stress: none principal components", repulsion_, 0, 2, SCENE_CHOICE},                \
     {"epsilon", "-", "factor of the artificial stress; 0: none", 0.3, 0, 10, SCENE_NUMBER},                            \
@@ -58,7 +58,8 @@ static inline sph_solid solid_material(const double *p)
 static inline double solid_closest(const sph_sim *sim, const sph_config *c)
 {
     const uint32_t n = sph_count(sim), up = SPH_DIM - 1;
-    const double reach = sph_kernel_support(c->kernel) * c->smoothing_length * (c->solid == SPH_TOTAL ? c->max_stretch : 1);
+    const double reach = sph_kernel_support(c->kernel) * c->smoothing_length * (c->solid == SPH_TOTAL ? c->max_stretch :
+        1);
     double least = 100 * c->spacing * c->spacing;
     sph_particle a, b;
     for (uint32_t i = 0; i < n; i++) {

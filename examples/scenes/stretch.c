@@ -36,7 +36,8 @@ void break_configure(const double *p, sph_config *c)
 /* where an end is at time t, and how fast it goes: up to speed evenly, on, and evenly to rest */
 static double drawn(const double *p, double t, double *speed)
 {
-    const double slow = p[STRETCH_SLOW], v = p[STRETCH_SPEED] / slow, ramp = p[STRETCH_RAMP] * slow, pull = p[STRETCH_PULL] * slow;
+    const double slow = p[STRETCH_SLOW], v = p[STRETCH_SPEED] / slow, ramp = p[STRETCH_RAMP] * slow,
+        pull = p[STRETCH_PULL] * slow;
     const double rest = pull > 0 ? pull > 2 * ramp ? pull : 2 * ramp : 1e300, left = rest - t;
     *speed = left <= 0 ? 0 : t < ramp ? v * t / ramp : left < ramp ? v * left / ramp : v;
     if (left <= 0)

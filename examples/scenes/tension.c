@@ -41,7 +41,8 @@ enum { SLICES = 24, FINE = 600 };
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {
-    const double t = sph_time(sim), dx = plate_spacing(p), inside = 0.5 * p[PLATE_LENGTH] - plate_end(p) + plate_drawn(p, t);
+    const double t = sph_time(sim), dx = plate_spacing(p), inside = 0.5 * p[PLATE_LENGTH] - plate_end(p) +
+        plate_drawn(p, t);
     double low[SLICES], high[SLICES], volume = 0, pull = 0, plastic = 0;
     uint8_t taken[FINE] = {0};
     sph_config c;

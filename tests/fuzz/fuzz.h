@@ -47,7 +47,8 @@ static UNUSED double take_any(input *b)
 {
     static const double odd[] = {0.0, -0.0, 1, -1, 0.5, 1e-3, 1e3, 1e15, -1e15, 1e30, -1e30, 1e38, 3.5e38, 1e300,
                                  -1e300,
-                                 1.7976931348623157e308, 5e-324, 1e-310, 2.2250738585072014e-308, 1e-30, 2.220446049250313e-16};
+                                 1.7976931348623157e308, 5e-324, 1e-310, 2.2250738585072014e-308, 1e-30,
+                                     2.220446049250313e-16};
     const uint32_t how = pick(b, 32);
     if (how < sizeof odd / sizeof *odd)
         return odd[how];

@@ -14,7 +14,8 @@ typedef struct atlas_table {
     const char *name;
     void (*write)(FILE *f);
 } atlas_table;
-void atlas_courant(FILE *f), atlas_swegle(FILE *f), atlas_tension(FILE *f), atlas_pairing(FILE *f), atlas_repulsion(FILE *f);
+void atlas_courant(FILE *f), atlas_swegle(FILE *f), atlas_tension(FILE *f), atlas_pairing(FILE *f),
+    atlas_repulsion(FILE *f);
 void atlas_water(FILE *f), atlas_tank(FILE *f), atlas_leak(FILE *f), atlas_precision(FILE *f);
 
 /* the header every table has; "" lines are left out */

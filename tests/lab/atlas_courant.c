@@ -105,7 +105,8 @@ void atlas_courant(FILE *f)
                       "corrected"},
                   {true, SPH_TOTAL, "total"}};
     atlas_head(f, "courant", "largest stable Courant number c0 dt/h",
-               "square lattice at no pressure, periodic, alpha 0.1, beta 0; elastic with mu = 0.22 K; c0: of the bulk modulus\n"
+               "square lattice at no pressure, periodic, alpha 0.1, beta 0; elastic with mu = 0.22 K; c0: of the bulk "
+               "modulus\n"
                "measured: bisection of runs of 400 steps (kick-drift-kick, leap-frog; others 1200) to 0.5 %\n"
                "theory: largest eigenvalue of the step's matrix over all waves\n"
                "summed: density by summation; theory: tests/lab/theory.c",

@@ -86,8 +86,10 @@ void atlas_swegle(FILE *f)
                 {"total", SPH_TOTAL, 0}};
     atlas_head(f, "swegle", "Swegle test: growth rate of a push of 1e-10 c0, c0/dx",
                "square lattice, periodic, cubic spline, mu = 0.22 K, volume strain V/V0 (above 1: tension)\n"
-               "repulsion: updated with artificial stress 0.3, n = 4, pushed with 1e-7 c0; measured: fit over runs of 400 dx/c0\n"
-               "theory: the fastest wave of the box (theory.c), which artificial stress at V/V0 = 1 does not have; 0: below 0.01",
+               "repulsion: updated with artificial stress 0.3, n = 4, pushed with 1e-7 c0; measured: fit over runs of "
+               "400 dx/c0\n"
+               "theory: the fastest wave of the box (theory.c), which artificial stress at V/V0 = 1 does not have; 0: "
+               "below 0.01",
                "form,volume,h,measured,theory");
     for (size_t i = 0; i < sizeof form / sizeof *form; i++)
         for (size_t k = 0; k < sizeof h / sizeof *h; k++)
@@ -109,7 +111,8 @@ void atlas_repulsion(FILE *f)
     static const uint32_t exponent[] = {2, 4, 6};
     static const double lambda[] = {0.9, 0.97};
     atlas_head(f, "repulsion", "tension with artificial stress: growth rate of a push of 1e-7 c0, c0/dx",
-               "as table swegle, form updated; lambda: rest density 1/lambda times the density (Gray 2001 eq 5.78), so V/V0 is\n"
+               "as table swegle, form updated; lambda: rest density 1/lambda times the density (Gray 2001 eq 5.78), so "
+               "V/V0 is\n"
                "1/lambda; 0: below 0.01; epsilon 0: no artificial stress",
                "epsilon,exponent,h,lambda,measured,theory");
     for (size_t l = 0; l < sizeof lambda / sizeof *lambda; l++)
@@ -135,9 +138,12 @@ void atlas_pairing(FILE *f)
     static const char *const lattice[] = {"square", "shifted_x"};
     atlas_head(f, "pairing", "compression: growth rate of a push of 1e-10 c0, c0/dx, and how near particles come",
                "periodic, form updated with mu = 0 (water of p = c0^2 (rho - rho0)), rho: density over that at rest\n"
-               "neighbours: with itself; measured, theory: as table swegle (none where neighbours stand on a rim at which the kernel\n"
-               "jumps: gaussian, h 1); nearest: smallest distance of two particles, dx, 600 dx/c0 after noise of 1e-2 c0 with\n"
-               "alpha 0.1; nearest_mean: mean over the particles of the distance to the nearest (1 on the square lattice, 1.075 on a\n"
+               "neighbours: with itself; measured, theory: as table swegle (none where neighbours stand on a rim at "
+               "which the kernel\n"
+               "jumps: gaussian, h 1); nearest: smallest distance of two particles, dx, 600 dx/c0 after noise of 1e-2 "
+               "c0 with\n"
+               "alpha 0.1; nearest_mean: mean over the particles of the distance to the nearest (1 on the square "
+               "lattice, 1.075 on a\n"
                "hexagonal one)",
                "kernel,h,neighbours,rho,measured,theory,nearest,nearest_mean,lattice");
     for (uint32_t l = 0; l < 2; l++)

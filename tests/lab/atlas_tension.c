@@ -168,9 +168,12 @@ void atlas_tension(FILE *f)
     static const double h[] = {1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8, 2, 2.25, 2.5};
     atlas_head(f, "tension", "critical stretch of a chain of 30 particles in one dimension",
                "empty: stable up to a stretch of 0.2; cholesky, running: the chain of the code between held particles\n"
-               "powell: his eq 3.40, n = 4, free ends (figure 3.2); his n is 2 in this code's form, so about half of the others\n"
-               "where a neighbour stands on a rim at which W' jumps there is no linear theory: hat h 1, 1.5, 2, 2.5; gaussian h 1, 2\n"
-               "seen: as cholesky, where the fastest mode grows by 0.00345 c0/dx, which is what runs of 2000 dx/c0 show",
+               "powell: his eq 3.40, n = 4, free ends (figure 3.2); his n is 2 in this code's form, so about half of "
+               "the others\n"
+               "where a neighbour stands on a rim at which W' jumps there is no linear theory: hat h 1, 1.5, 2, 2.5; "
+               "gaussian h 1, 2\n"
+               "seen: as cholesky, where the fastest mode grows by 0.00345 c0/dx, which is what runs of 2000 dx/c0 "
+               "show",
                "kernel,h,cholesky,running,powell,seen");
     for (uint32_t k = 0; k < SPH_KERNELS; k++)
         for (size_t i = 0; i < sizeof h / sizeof *h; i++) {

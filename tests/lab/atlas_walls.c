@@ -146,9 +146,11 @@ void atlas_tank(FILE *f)
                 {"mirror_alpha_0.05", {.wall = WALL_MIRROR, .alpha = 0.05}},
                 {"mirror_hydrostatic", {.wall = WALL_MIRROR, .alpha = 0.01, .diffusion = SPH_HYDROSTATIC}}};
     atlas_head(f, "tank", "a still tank after many steps, for every kind of wall",
-               "2-D, float, 12 by 8 particles in hydrostatic balance, c0^2 = 200 g H, defaults of sph_config_default but\n"
+               "2-D, float, 12 by 8 particles in hydrostatic balance, c0^2 = 200 g H, defaults of sph_config_default "
+               "but\n"
                "for what a choice names (molteni, hydrostatic: density diffusion 0.1); x: steps\n"
-               "speed: rms, sqrt(g H); moved: rms way from the first place; nearest: of two particles; pressure: rms error, rho g H\n"
+               "speed: rms, sqrt(g H); moved: rms way from the first place; nearest: of two particles; pressure: rms "
+               "error, rho g H\n"
                "put_back: so far; left: particles that are gone; failed: the step that did",
                "case,choice,x,figure,value,unit");
     for (size_t w = 0; w < sizeof list / sizeof *list; w++) {
@@ -218,9 +220,11 @@ void atlas_leak(FILE *f)
     static const double speed[] = {0.05, 0.1, 0.3, 1, 2}, strength[] = {0.1, 1, 10};
     atlas_head(f, "leak", "water thrown at a wall: what goes through",
                "2-D, float, a block of 8 by 8 particles, no gravity, defaults of sph_config_default; x: speed over c0\n"
-               "strength: over the usual one; layers: of ghosts, 3 are usual; crossed: share that was seen more than dx/2 behind the\n"
+               "strength: over the usual one; layers: of ghosts, 3 are usual; crossed: share that was seen more than "
+               "dx/2 behind the\n"
                "wall (IGNORE)\n"
-               "put_back: how often one is put back with PUT_BACK, and crossed_put_back: the share behind the wall in spite of it\n"
+               "put_back: how often one is put back with PUT_BACK, and crossed_put_back: the share behind the wall in "
+               "spite of it\n"
                "failed 1: a step failed before the end; no row: none did",
                "case,choice,x,figure,value,unit");
     for (uint32_t w = 0; w < WALL_CHOICES; w++)

@@ -2,7 +2,8 @@
 /* atlas_water.c: water under negative pressure. A periodic square of it, p = c0^2 (rho - rho0) below 0, with the means
    that are said to help: p >= 0, density diffusion, Shepard's filter, XSPH, other schemes.
 
-   growth   rate of a push of 1e-10 c0 without viscosity, as in atlas_swegle.c; theory: that of the plain form with mu = 0, which
+   growth   rate of a push of 1e-10 c0 without viscosity, as in atlas_swegle.c; theory: that of the plain form with mu =
+            0, which
             is the linear theory of all schemes with the sum of pressures (standard, weak), whose tensile part -2 p b
             does not
             know the density. Nothing done to the density can change that part, and it alone makes neighbours pair.
@@ -103,8 +104,10 @@ void atlas_water(FILE *f)
     static const double density[] = {0.99, 0.95};
     static const uint32_t kernel[] = {SPH_WENDLAND_C2, SPH_CUBIC};
     atlas_head(f, "water", "water under negative pressure: growth of pushes, and where particles end",
-               "periodic square, h = 1.2 dx, p = c0^2 (rho - rho0); x: density over rho0; floor: p >= 0; molteni: delta 0.1\n"
-               "shepard: every 20 steps; xsph: 0.5; growth: without viscosity; nearest (mean over particles), hole: 600 dx/c0 after\n"
+               "periodic square, h = 1.2 dx, p = c0^2 (rho - rho0); x: density over rho0; floor: p >= 0; molteni: "
+               "delta 0.1\n"
+               "shepard: every 20 steps; xsph: 0.5; growth: without viscosity; nearest (mean over particles), hole: "
+               "600 dx/c0 after\n"
                "noise of 1e-2 c0, alpha 0.1\n"
                "theory: of the plain form",
                "case,choice,x,figure,value,unit");

@@ -4,7 +4,8 @@
 
 usage: charts.py [--tables tests/lab] [--out tests/lab/charts] [--only PATTERN] [--no-page]
 
-A chart is a figure as SVG and PNG. A table that is not there is passed over with a line that says so. From the same tables come
+A chart is a figure as SVG and PNG. A table that is not there is passed over with a line that says so. From the same
+tables come
 the same files, byte for byte.
     STUDY_front      error against cost, each method a line; the Pareto front with its members named
     STUDY_precision  float beside double
@@ -72,7 +73,8 @@ def front_panel(chart, study, cost, letter, place):
     names = {"pairs": "pairs of particles looked at", "instructions": "instructions"}
     p = chart.panel(420, names[cost] + ", whole run", error_label(study), x, y, right=50)
     swept = [r for r in rows if r["sweep"] == "h"]
-    p.line([r[cost] for r in swept], [r["error"] for r in swept], lines=False, shape=1, size=0.45, width=0.7, grey="#999999")
+    p.line([r[cost] for r in swept], [r["error"] for r in swept], lines=False, shape=1, size=0.45, width=0.7,
+           grey="#999999")
     for i, (label, k) in enumerate(letter.items()):
         mine = sorted((r for r in rows if r["sweep"] == "method" and r["label"] == label), key=study.finer)
         p.line([r[cost] for r in mine], [r["error"] for r in mine], i, k, width=1, size=0.6, grey="#666666")
@@ -118,7 +120,8 @@ def precision_chart(study):
         y = Axis(values, key == "error", low=0 if key == "each" else None)
         p = chart.panel(height, study.resolution, what, x, y, right=122, xticks=ticks)
         for i, (two, k) in enumerate(zip(pairs.values(), letter)):
-            for rows, name, shape, dash in ((two[0], "float", POINT[2 * i % 10], "solid"), (two[1], "double", POINT[2 * i % 10 + 1], "(10,5)")):
+            for rows, name, shape, dash in ((two[0], "float", POINT[2 * i % 10], "solid"),
+                                            (two[1], "double", POINT[2 * i % 10 + 1], "(10,5)")):
                 p.line([r["n"] for r in rows], [r[key] for r in rows], i, k + name, shape=shape, dash=dash,
                        size=1.2 if name == "double" else 0.8)
     keys = "; ".join(k + label for label, k in zip(pairs, letter))
@@ -148,7 +151,8 @@ def h_chart(study):
     for at, labels in broken.items():
         p.text(x.at(at), 1, "x", 0, -6, "center", FONT, True)
     cost = "instructions" if good(rows, "instructions") else "pairs"
-    q = chart.panel(260, "h/dx", f"{cost}, whole run", x, Axis([r[cost] for r in good(rows, cost)], True, pad=0.08), right=122)
+    q = chart.panel(260, "h/dx", f"{cost}, whole run", x,
+                    Axis([r[cost] for r in good(rows, cost)], True, pad=0.08), right=122)
     for i, label in enumerate(study.labels("h")):
         fine = [r for r in good(rows, cost) if r["label"] == label]
         q.line([r["x"] for r in fine], [r[cost] for r in fine], i, label.replace("_", " "))
@@ -156,17 +160,20 @@ def h_chart(study):
         where = "; ".join(f"h/dx {k:g} {', '.join(v)}" for k, v in broken.items())
         chart.note(f"x at the top: no figure, as the run blew up: {where}.")
     least = min(good(rows), key=lambda r: r["error"])
-    caption(chart, study, f"All at {study.size} {least['n']:g}. Smallest error: {least['error']:.3g}, {least['label']}, h/dx {least['x']:g}.")
+    caption(chart, study, f"All at {study.size} {least['n']:g}. Smallest error: {least['error']:.3g}, "
+                          f"{least['label']}, h/dx {least['x']:g}.")
     return chart
 
 
 # ---- error against the Courant number ----
 
-SOLIDS = ("pulse", "rings", "plate", "hole", "block", "stretch", "tension", "brittle", "chamber", "caldera")  # scenes of them
+# scenes of solids
+SOLIDS = ("pulse", "rings", "plate", "hole", "block", "stretch", "tension", "brittle", "chamber", "caldera")
 
 
 def theory_of(study, rows, atlas):
-    """Lowest and highest limit of the linear theory for a sweep: of its kernel and scheme where they are known, else of all."""
+    """Lowest and highest limit of the linear theory for a sweep: of its kernel and scheme where they are known, else of
+    all."""
     if not atlas:
         return None
     given = {**study.defaults, **rows[0]["given"]}
@@ -187,7 +194,8 @@ def courant_chart(study, atlas):
         return None
     chart = Chart(f"{study.name}_courant", f"{study.title}: error against the Courant number")
     xs = [r["x"] for r in rows]
-    bounds = {label: theory_of(study, [r for r in rows if r["label"] == label], atlas) for label in study.labels("courant")}
+    bounds = {label: theory_of(study, [r for r in rows if r["label"] == label], atlas)
+              for label in study.labels("courant")}
     x = Axis(xs + [b for two in bounds.values() if two for b in two if b > 0.5 * min(xs)], True)
     ok = [r["error"] for r in good(rows)]
     least = min(ok)
@@ -212,11 +220,15 @@ def courant_chart(study, atlas):
         elif shown:
             chart_text(p, x, shown[-1]["x"], 0.9, f"stands all, to {mine[-1]['x']:g}")
         if len(shown) < len(fine):
-            chart_text(p, x, shown[-1]["x"] if shown else xs[0], 0.6, f"beyond: errors to {max(r['error'] for r in fine):.4g}", 0.3)
-    chart.note("Time step fixed by hand. Thick upright: the first step that blew up. Dotted, grey band: largest stable step by linear theory "
-               "(tests/lab/atlas_courant.csv: square lattice at no pressure, periodic, alpha 0.1; of the study's kernel and scheme where its "
+            chart_text(p, x, shown[-1]["x"] if shown else xs[0], 0.6,
+                       f"beyond: errors to {max(r['error'] for r in fine):.4g}", 0.3)
+    chart.note("Time step fixed by hand. Thick upright: the first step that blew up. Dotted, grey band: largest stable "
+               "step by linear theory "
+               "(tests/lab/atlas_courant.csv: square lattice at no pressure, periodic, alpha 0.1; of the study's "
+               "kernel and scheme where its "
                "options name them, else from the smallest to the largest)." if any(bounds.values()) else
-               "Time step fixed by hand. Thick upright: the first step that blew up. The linear theory's limits were not there "
+               "Time step fixed by hand. Thick upright: the first step that blew up. The linear theory's limits were "
+               "not there "
                "(tests/lab/atlas_courant.csv).")
     caption(chart, study, f"All at {study.size} {rows[0]['n']:g}.")
     return chart
@@ -232,8 +244,10 @@ def chart_text(p, x, value, gy, text, turn=0.6):
 # ---- stages ----
 
 STAGES = {"force": "forces", "scatter": "sort", "count": "sort", "adami": "walls", "ghost": "walls", "wall": "walls",
-          "correct": "motion", "carry": "motion", "begin": "motion", "kick": "motion", "drift": "motion", "predict": "motion", "clear": "sort", "smooth": "filters", "filter": "filters",
-          "shepard": "filters", "gradient": "correction", "moment": "correction", "solid": "solids", "stress": "solids", "damage": "damage"}
+          "correct": "motion", "carry": "motion", "begin": "motion", "kick": "motion", "drift": "motion", "predict": "motion",
+          "clear": "sort", "smooth": "filters", "filter": "filters",
+          "shepard": "filters", "gradient": "correction", "moment": "correction", "solid": "solids", "stress": "solids",
+          "damage": "damage"}
 SHARE = 0.03  # stages below it in every scene are "rest"
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-"""charts_atlas.py: charts of the stability atlas (tests/lab/atlas_*.csv) and of the interpolation of fields (interpolation.csv)."""
+"""charts_atlas.py: charts of the stability atlas (tests/lab/atlas_*.csv) and of the interpolation of fields
+(interpolation.csv)."""
 import os, re, sys
 
 import tables
@@ -126,7 +127,8 @@ def tension(name, head, rows):
     grid_of(chart, [(k, k.replace("_", " ")) for k in one(rows, "kernel")], draw, xlabel="h/dx",
             ylabel="critical stretch", x=x, y=y)
     more = "".join(f"; {'dashed' if c == 'seen' else 'dotted'}: {c}" for c in extra)
-    chart.note(f"Line: by Cholesky; circles: by running the code{more}. No point: stable at every stretch that was tried.")
+    chart.note(f"Line: by Cholesky; circles: by running the code{more}. No point: stable at every stretch that was "
+               f"tried.")
     return finish(chart, name, head)
 
 
@@ -175,7 +177,8 @@ def repulsion(name, head, rows):
 # ---- tables of case, choice, x, figure, value, unit ----
 
 def figures(name, head, rows):
-    """curves over x where a figure has three or more of them, else bars; figures that are 0 in all rows are only said"""
+    """curves over x where a figure has three or more of them, else bars; figures that are 0 in all rows are only
+    said"""
     chart = start(name, head, name.replace("atlas_", "").replace("_", " "))
     said = re.search(r"\bx: ([^;]+)", "; ".join(head[""]))
     flat, bar = [], {}

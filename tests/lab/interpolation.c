@@ -4,7 +4,8 @@
 
    W1 (Wickramarachchi 2009, figure 2.4): unit spacing, far from any edge, the particle in the middle:
      one        | sum V W - 1 |                                     his 2.13
-     grad_x     | sum V (x_j - x_i) dW/dx - 1 |                     his 2.15 to 2.17; what Bonet & Lok's correction makes 0
+     grad_x     | sum V (x_j - x_i) dW/dx - 1 |                     his 2.15 to 2.17; what Bonet & Lok's correction
+                makes 0
      ..._jitter the same as root mean squares over 400 particles moved by at most 0.2 of a spacing on each axis (2-D)
      grad_1_jitter         h times the rms of | sum V grad W |, which is 0 for an exact sum
      grad_square_corrected rms error of d(x^2)/dx over 2 h with corrected gradients, the first field that they do not
@@ -13,7 +14,8 @@
    P1 (Powell 2012, figures 1.2 and 1.3): x^3 and its derivative from seven particles at 0 .. 6, h 2 unless h says
    otherwise: rms error over the particles as a share of the rms of the exact values:
      cube, cube_shepard                           sum V f W; divided by sum V W                        (his 1.14)
-     slope, slope_zero, slope_corrected           sum V f dW; sum V (f_j - f_i) dW (1.15); divided by sum V (x_j - x_i) dW
+     slope, slope_zero, slope_corrected           sum V f dW; sum V (f_j - f_i) dW (1.15); divided by sum V (x_j - x_i)
+                                                  dW
      slope_shepard                                gradient of the Shepard-normalised sum               (3.61)
      edge_...                                     the same at the particle on the edge alone */
 #include <math.h>

@@ -111,7 +111,8 @@ def halving_words(study):
 
 
 def ladder(study):
-    """The front by halvings of the error: wanted error and the cheapest run that reaches it, from the cheapest run of all on."""
+    """The front by halvings of the error: wanted error and the cheapest run that reaches it, from the cheapest run of
+    all on."""
     front = study.front(cost_of(study))
     wanted, rungs = front[0]["error"], [(front[0]["error"], front[0])]
     while front[-1]["error"] > 0 and wanted / 2 >= front[-1]["error"]:
@@ -153,7 +154,8 @@ def h_words(study):
             best = min(rows, key=lambda r: r["error"])
             near = [r["x"] for r in rows if r["error"] <= 2 * best["error"]]
             more = f", within twice that at {spans(near, [r['x'] for r in rows])}" if len(near) > 1 else ""
-            said.append(f"{html.escape(label.replace('_', ' '))} is best at h/dx {best['x']:g} ({figure(best['error'], study)}{more})")
+            said.append(f"{html.escape(label.replace('_', ' '))} is best at h/dx {best['x']:g} "
+                        f"({figure(best['error'], study)}{more})")
     return "; ".join(said)
 
 
@@ -212,7 +214,8 @@ def row_of(cells, names):
 def table_of(names, rows):
     head = "".join(f"<th>{html.escape(n)}</th>" for n in names)
     body = "".join(row_of(r, names) for r in rows)
-    return f'<div class="wide"><table class="stack"><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>\n'
+    return (f'<div class="wide"><table class="stack"><thead><tr>{head}</tr></thead><tbody>\n'
+            f'{body}</tbody></table></div>\n')
 
 
 def kind(study):
@@ -230,7 +233,8 @@ def choice_words(study):
     """What is chosen and the last four columns of CHOICES."""
     take, best = chosen(study)
     cost = cost_of(study)
-    same = "this one" if take is best else f"{figure(best['error'], study)} at {best[cost] / take[cost]:.2g} times the cost"
+    times = best[cost] / take[cost]
+    same = "this one" if take is best else f"{figure(best['error'], study)} at {times:.2g} times the cost"
     return take, (figure(take["error"], study), f"{count(take[cost])} {cost}", same, halving_words(study))
 
 
@@ -302,19 +306,23 @@ def make(folder, charts):
     body = ["<h1>sph: what accuracy costs</h1>\n", INTRO]
     if found:
         body += ["<h2>Your scene: choose this</h2>\n<p>The cheapest run whose error is at most twice the smallest "
-                 "known one; what was right by luck, by the other sizes of the same method, is left out. What half the error costs is a straight line through the Pareto front in logarithms.</p>\n",
+                 "known one; what was right by luck, by the other sizes of the same method, is left out. What half the "
+                 "error costs is a straight line through the Pareto front in logarithms.</p>\n",
                  choices_table(found)]
     body += [section(s, charts, up) for s in found]
     if stages:
         body.append(f'<h2 id="stages">Where a step goes</h2>\n{stages}')
     if atlas:
         body.append(f'<h2 id="atlas">Where methods fail</h2>\n{atlas}')
-    body.append("<h2>How it is made</h2>\n<p>The tables are in <code>tests/lab</code>, made by <code>make lab</code> and "
-                "<code>make atlas</code>; each row holds the options of its run, each table the command that makes it. Charts and "
+    body.append("<h2>How it is made</h2>\n<p>The tables are in <code>tests/lab</code>, made by <code>make lab</code> "
+                "and "
+                "<code>make atlas</code>; each row holds the options of its run, each table the command that makes it. "
+                "Charts and "
                 "this page: <code>make charts</code>.</p>\n")
     return ('<!DOCTYPE html>\n<html lang="en">\n<!-- SPDX-License-Identifier: MIT. Copyright the sph authors. '
             'Made by make charts. -->\n<head>\n<meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>sph: what accuracy costs</title>\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>sph: what accuracy '
+            'costs</title>\n'
             f"<style>{STYLE}</style>\n</head>\n<body>\n{''.join(body)}</body>\n</html>\n")
 
 

@@ -102,7 +102,8 @@ class Panel:
         how += f" pt {shape or POINT[style % len(POINT)]} ps {size}" if points else ""
         self.series.append((xy, how))
         if name:
-            point = f"point pt {shape or POINT[style % len(POINT)]} ps {min(size, 0.9)} lc rgb '{grey or GREY[style % len(GREY)]}'"
+            point = (f"point pt {shape or POINT[style % len(POINT)]} ps {min(size, 0.9)} "
+                     f"lc rgb '{grey or GREY[style % len(GREY)]}'")
             self.names.append([self.y.at(xy[-1][1]), xy[-1], name, point if points else ""])
 
     def where(self, x, y):
@@ -213,12 +214,15 @@ class Chart:
                 label(sx + dx / self.width, sy + dy / height, text, anchor, size, bold, rotate, grey)
             elif item[0] == "arrow":
                 _, x0, y0, x1, y1, dash, grey, lw = item
-                out.append(f"set arrow {i + 1} from graph {x0:.6f}, graph {y0:.6f} to graph {x1:.6f}, graph {y1:.6f} nohead back "
+                out.append(f"set arrow {i + 1} from graph {x0:.6f}, graph {y0:.6f} to graph {x1:.6f}, graph {y1:.6f} "
+                           f"nohead back "
                            f"lc rgb '{grey}' lw {lw} dt {dash}")
             else:
                 _, x0, y0, x1, y1, grey, border = item
-                out.append(f"set object {i + 1} rect from graph {x0:.6f}, graph {y0:.6f} to graph {x1:.6f}, graph {y1:.6f} behind "
-                           f"fillcolor rgb '{grey}' fillstyle solid {'border lc rgb ' + quote('#000000') if border else 'noborder'} lw 0.6")
+                out.append(f"set object {i + 1} rect from graph {x0:.6f}, graph {y0:.6f} to graph {x1:.6f}, graph "
+                           f"{y1:.6f} behind "
+                           f"fillcolor rgb '{grey}' fillstyle solid "
+                           f"{'border lc rgb ' + quote('#000000') if border else 'noborder'} lw 0.6")
         # names at the right, from the top down, at least a line apart
         frame = bottom - top
         names, arrows = sorted(p.names, key=lambda e: -e[0]), len(p.before)
@@ -228,10 +232,12 @@ class Chart:
                   0, "#000000")
             if point:
                 n += 1
-                out.append(f"set label {n} '' at screen {(right + 16) / self.width:.6f}, {1 - (top + py) / height:.6f} {point} front")
+                out.append(f"set label {n} '' at screen {(right + 16) / self.width:.6f}, {1 - (top + py) / height:.6f} "
+                           f"{point} front")
             gx, gy = p.where(vx, vy)
             sx, sy = screen(gx, gy)
-            out.append(f"set arrow {arrows + k + 1} from screen {sx:.6f}, {sy:.6f} to screen {(right + 11) / self.width:.6f}, "
+            out.append(f"set arrow {arrows + k + 1} from screen {sx:.6f}, {sy:.6f} to screen "
+                       f"{(right + 11) / self.width:.6f}, "
                        f"{1 - (top + py) / height:.6f} nohead back lc rgb '#999999' lw 0.6 dt solid")
         for k, (xy, _) in enumerate(p.series):
             out.append(f"$d{k} << END\n" + "\n".join(f"{a:.10g} {b:.10g}" for a, b in xy) + "\nEND")
@@ -242,7 +248,8 @@ class Chart:
     def write(self, folder):
         script, height = self.script()
         base = os.path.join(folder, self.name)
-        heads = [(f"set terminal svg size {self.width},{height:.0f} fixed enhanced font 'sans-serif,{FONT}' background '#ffffff'", ".svg"),
+        heads = [(f"set terminal svg size {self.width},{height:.0f} fixed enhanced font 'sans-serif,{FONT}' background "
+                  f"'#ffffff'", ".svg"),
                  (f"set terminal pngcairo size {self.width},{height:.0f} enhanced font 'DejaVu Sans,{FONT * 0.78:.1f}'",
                   ".png")]
         for head, end in heads:
@@ -261,7 +268,8 @@ class Chart:
 
 
 def tidied(path):
-    """An SVG without blank lines and indents, and with bold letters as SVG has them: gnuplot 5.4 makes them a family's name."""
+    """An SVG without blank lines and indents, and with bold letters as SVG has them: gnuplot 5.4 makes them a family's
+    name."""
     with open(path) as f:
         lines = [line.strip().replace('font-family="sans-serif:Bold"', 'font-family="sans-serif" font-weight="bold"')
                  for line in f]
@@ -270,7 +278,8 @@ def tidied(path):
 
 
 def in_grey(path):
-    """Rewrites a PNG of eight bits a channel, all channels equal, as one of sixteen greys: a fourth of the bytes or less."""
+    """Rewrites a PNG of eight bits a channel, all channels equal, as one of sixteen greys: a fourth of the bytes or
+    less."""
     with open(path, "rb") as f:
         data = f.read()
     at, packed, width, height, channels = 8, b"", 0, 0, 0

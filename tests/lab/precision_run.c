@@ -3,7 +3,8 @@
    take the same.
      tank     12 by 8 particles at rest between Adami walls, c0^2 = 200 g H
      dam      10 by 20 in a tank 40 wide, Adami walls, c0^2 = 200 g H
-     vortex   Taylor and Green's in a periodic square of 16, c0 = 10 of its speeds, Morris viscosity, Reynolds number 100
+     vortex   Taylor and Green's in a periodic square of 16, c0 = 10 of its speeds, Morris viscosity, Reynolds number
+              100
      block    12 by 12 of an elastic solid, free, that rings: updated form, artificial stress
      tension  a periodic square of 12 of the updated form under V/V0 = 1.05 with a push of 1e-10 c0: unstable */
 #include "precision_run.h"

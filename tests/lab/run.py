@@ -231,7 +231,8 @@ def compare(study, rows):
         there = held.get(tuple(line[:5]))
         if not there or there[:k] + there[k + 1:] != line[:k] + line[k + 1:]:
             bad += 1
-            print(f"{study.name}: {line[:5]}: is {line[5:k] + line[k + 1:]}, committed {there and there[5:k] + there[k + 1:]}")
+            print(f"{study.name}: {line[:5]}: is {line[5:k] + line[k + 1:]}, committed "
+                  f"{there and there[5:k] + there[k + 1:]}")
     return bad
 
 
@@ -271,12 +272,14 @@ def main():
             done += 1
             if r.seconds > 1 or done == len(todo):
                 left = (time.time() - start) / done * (len(todo) - done)
-                print(f"[{done}/{len(todo)}] {r.scene} {r.given}: {r.error or 'done'} in {r.seconds:.0f} s, about {left:.0f} s left", file=sys.stderr, flush=True)
+                print(f"[{done}/{len(todo)}] {r.scene} {r.given}: {r.error or 'done'} in {r.seconds:.0f} s, about "
+                      f"{left:.0f} s left", file=sys.stderr, flush=True)
     for s in studies:
         rows[s.name] = [with_position(runs[r.name], r) for r in rows[s.name]]
     if args.smoke:
         bad = sum(compare(s, rows[s.name]) for s in studies)
-        print(f"lab-smoke: {sum(map(len, rows.values()))} rows of {len(studies)} studies, {bad} differ from the committed tables")
+        print(f"lab-smoke: {sum(map(len, rows.values()))} rows of {len(studies)} studies, {bad} differ from the "
+              f"committed tables")
         return bad > 0 or not any(rows.values())
     if not shutil.which(args.valgrind):
         print("lab: no valgrind, so instructions are left out; apt-get install --no-install-recommends valgrind",
@@ -297,11 +300,13 @@ def main():
                 stages.append([s.scene, first.precision, first.given, stage, f"{v:.4g}"])
         print(f"lab: tests/lab/{s.name}.csv, {len(rows[s.name])} rows", file=sys.stderr)
     merge("stages.csv", ["scene", "precision", "options", "stage", "instructions"], stages, 1,
-          "instructions a particle-step by pass of the step, first method of each study; of the gcc that made build/sph")
+          "instructions a particle-step by pass of the step, first method of each study; of the gcc that made "
+          "build/sph")
     merge("seconds.csv", ["scene", "precision", "options", "seconds", "calibrations"],
           [[r.scene, r.precision, r.given, f"{r.cost('seconds'):.4g}", f"{r.cost('calibrations'):.4g}"] for r in todo],
           3,
-          "seconds of stepping of each run, and as multiples of tools/calibrate.c in the same process; the only table with seconds")
+          "seconds of stepping of each run, and as multiples of tools/calibrate.c in the same process; the only table "
+          "with seconds")
     return 0
 
 

@@ -20,7 +20,8 @@ def number(text):
 
 
 def read(path):
-    """Header (`# key: text` for KEYS, other lines under "") and rows (dicts of text) of a table; None if there is no such file."""
+    """Header (`# key: text` for KEYS, other lines under "") and rows (dicts of text) of a table; None if there is no
+    such file."""
     if not os.path.exists(path):
         return None
     head, body = {"": []}, []
@@ -47,7 +48,8 @@ def need(path, rows, columns):
 
 
 class Study:
-    """A table of runs. A row is good if it reached its end and has an error, controlled if step control chose its steps."""
+    """A table of runs. A row is good if it reached its end and has an error, controlled if step control chose its
+    steps."""
 
     def __init__(self, head, rows, path):
         self.name, self.title, self.scene = head["study"], head.get("title", head["study"]), head.get("scene",
@@ -71,7 +73,8 @@ class Study:
 
     @staticmethod
     def lucky(a, b):
-        """Is a's error by luck, by what b says, the same method with other pairs? As studies_lucky in tools/studies.c."""
+        """Is a's error by luck, by what b says, the same method with other pairs? As studies_lucky in
+        tools/studies.c."""
         if a["sweep"] not in ("method", "precision") or any(a[k] != b[k] for k in ("sweep", "label", "precision")):
             return False
         if a["error"] is None or b["error"] is None or b["cause"] or not a["pairs"] or not b["pairs"]:

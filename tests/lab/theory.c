@@ -1,24 +1,29 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* theory.c: see theory.h. Sums over a lattice of vectors r from a particle to its neighbours, W(r), wave vector k, spacing 1:
+/* theory.c: see theory.h. Sums over a lattice of vectors r from a particle to its neighbours, W(r), wave vector k,
+   spacing 1:
      a_l = sum sin(k.r) d_l W     b_nl = sum (1 - cos(k.r)) d_n d_l W     c_mnl = sum sin(k.r) r_m d_n d_l W
      m0 = -sum r_x d_x W          d_nl = sum (1 - cos(k.r)) |g| r_n r_l/(r^2 + 0.01 h^2),  g = (dW/dr)/r
 
    Growth. Positions move by U e^(i k.r + s t). Gradient of the displacement -i U_m a'_n, where a' = a (updated) or a/m0
-   (corrected, total), so d rho = i rho U.a', and dS is Hooke's and Jaumann's of that gradient. The force is sum m (Q_i + Q_j)
+   (corrected, total), so d rho = i rho U.a', and dS is Hooke's and Jaumann's of that gradient. The force is sum m (Q_i
+   + Q_j)
    grad W with Q = sigma/rho^2 (updated) or sigma M^-T/rho, M = -sum m x_ij (x) K g = rho m0 at rest:
      s^2 U = -i rho dQ.a + 2 rho Q.b.U                 (total: without b, as K does not change)
      dQ    = d sigma/rho^2 - 2 sigma d rho/rho^3                                            (updated)
      dQ    = d sigma/(rho^2 m0) - sigma d rho/(rho^3 m0) - (sigma/rho) dM^T/(rho m0)^2      (corrected, total)
      dM_mn = -i rho (U_m a_n + c_mnl U_l)              (total: without c)
-   which for the updated form is the matrix of tools/dispersion.c; artificial stress and other lattices are taken from there.
+   which for the updated form is the matrix of tools/dispersion.c; artificial stress and other lattices are taken from
+   there.
 
    Steps. Sums count with the mass of a particle. At no stress positions do not matter. A wave is q = (rho, S;
    or, with summed density, x) and v:
      q' = A v,   v' = B q - D v,   D = alpha h c0 d
    and a step, as kick.h and move.c do it, is
      kick-drift-kick, leap-frog   q += dt A w, w += dt (B q - D w) of the velocity w at half steps: both are the same
-     predictor-corrector          q_p = q + dt q'_o, v_p = v + dt a_o, rates (q', a) of these, q = q_p + dt/2 (q' - q'_o), v alike;
-                                  the rates are kept: one evaluation a step. Summed: x = x + dt v + dt^2/2 a_o is not corrected
+     predictor-corrector          q_p = q + dt q'_o, v_p = v + dt a_o, rates (q', a) of these, q = q_p + dt/2 (q' -
+                                  q'_o), v alike;
+                                  the rates are kept: one evaluation a step. Summed: x = x + dt v + dt^2/2 a_o is not
+                                  corrected
      Runge-Kutta, both forms      1 + z + z^2/2, the midpoint rule
    The matrix of a step is squared 22 times: the 2^22nd root of its norm is its largest eigenvalue to 1e-5. */
 #define SPH_DIM 2
@@ -46,7 +51,8 @@ static void add(uint32_t kernel, double h, const double k[2], const double r[2],
     const double d2 = kernel_second(kernel, len / h) / (h * h * h * h), g = dw / len;
     const double phase = k[0] * r[0] + k[1] * r[1], odd = sin(phase), half = sin(0.5 * phase), even = 2 * half * half;
     for (int i = 0; i < 3; i++) {
-        const double ee = i < 2 ? e[i] * e[i] : e[0] * e[1], across = i < 2 ? 1 - ee : -ee, second = d2 * ee + g * across;
+        const double ee = i < 2 ? e[i] * e[i] : e[0] * e[1], across = i < 2 ? 1 - ee : -ee,
+            second = d2 * ee + g * across;
         s->b[i] += even * second;
         for (int m = 0; m < 2; m++)
             s->c[m][i] += odd * r[m] * second;
@@ -133,7 +139,8 @@ double theory_growth(const theory_box *b)
             if (i == 0 && j == 0)
                 continue;
             theory_modes(b, k, v, &both);
-            const double root = both ? sqrt(0.5 * (sqrt(v[0] * v[0] + v[1] * v[1]) + v[0])) : sqrt(fmax(0, fmax(v[0], v[1])));
+            const double root = both ? sqrt(0.5 * (sqrt(v[0] * v[0] + v[1] * v[1]) + v[0])) : sqrt(fmax(0, fmax(v[0],
+                v[1])));
             most = root > most ? root : most;
         }
     return most;
