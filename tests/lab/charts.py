@@ -244,8 +244,8 @@ def chart_text(p, x, value, gy, text, turn=0.6):
 # ---- stages ----
 
 STAGES = {"force": "forces", "scatter": "sort", "count": "sort", "adami": "walls", "ghost": "walls", "wall": "walls",
-          "correct": "motion", "carry": "motion", "begin": "motion", "kick": "motion", "drift": "motion", "predict": "motion",
-          "clear": "sort", "smooth": "filters", "filter": "filters",
+          "correct": "motion", "carry": "motion", "begin": "motion", "kick": "motion", "drift": "motion",
+          "predict": "motion", "clear": "sort", "smooth": "filters", "filter": "filters",
           "shepard": "filters", "gradient": "correction", "moment": "correction", "solid": "solids", "stress": "solids",
           "damage": "damage"}
 SHARE = 0.03  # stages below it in every scene are "rest"
