@@ -160,17 +160,22 @@ gate() {
         echo "exit $?" >>"$sound"
     fi
     if [ "$5" != - ]; then
+        ! grep -qE -- "$3" "$sound" || said="says so before anything is broken"
         [ "$(tail -n 1 "$sound")" = "exit 0" ] ||
             said="fails before anything is broken: $(tail -n 2 "$sound" | head -n 1 | cut -c1-100)"
-        ! grep -qE -- "$3" "$sound" || said="says so before anything is broken"
     fi
     if [ "$4" = - ] || (cd "$tree" && $4) >"$broken"; then
         go "${6:-$5}" >"$broken"
         rc=$?
-        [ $rc -ne 124 ] || said="ran longer than $LIMIT s"
-        [ $rc -ne 0 ] || said="stays silent"
-        [ $rc -eq 0 ] || grep -qE -- "$3" "$broken" ||
+        if [ -n "$said" ]; then
+            :
+        elif [ $rc -eq 124 ]; then
+            said="ran longer than $LIMIT s"
+        elif [ $rc -eq 0 ]; then
+            said="stays silent"
+        elif ! grep -qE -- "$3" "$broken"; then
             said="fails, but does not say '$3': $(tail -n 1 "$broken" | cut -c1-100)"
+        fi
     else
         said=$(tail -n 1 "$broken")
     fi
