@@ -74,6 +74,9 @@ class Graph:
         self.by_name = {}
         for node in self.frame:
             self.by_name.setdefault(short(node), []).append(node)
+            # in the source a function that several files share is sph_NAME, in objects sph2f_NAME_
+            if short(node).endswith("_"):
+                self.by_name.setdefault("sph_" + short(node)[:-1], []).append(node)
         self.resolve()
 
     def read(self, text):
