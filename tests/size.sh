@@ -39,7 +39,12 @@ gate() {
 [ "${1:-}" = --gate ] && { gate; exit $?; }
 case ${1:-} in
 '') ;;
---code) case ${2:-} in host | m4f | water) ;; *) echo "size.sh: --code '${2:-}'; allowed are host, m4f, water" >&2; exit 2 ;; esac ;;
+--code)
+    case ${2:-} in
+    host | m4f | water) ;;
+    *) echo "size.sh: --code '${2:-}'; allowed are host, m4f, water" >&2; exit 2 ;;
+    esac
+    ;;
 *) echo "size.sh: '$1' is not known; allowed: nothing, --gate, --code" >&2; exit 2 ;;
 esac
 
