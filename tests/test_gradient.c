@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_gradient.c: corrected gradients of fluids against sums over all pairs in double, and what they are for: exact rates of
-   linear velocities, momentum, angular momentum and energy; and where neighbours do not span space, the plain gradient. */
+/* test_gradient.c: corrected gradients of fluids against sums over all pairs in double, and what they are for: exact
+   rates of linear velocities, momentum, angular momentum and energy; and where neighbours do not span space, the plain
+   gradient. */
 #include "testing.h"
 
 #include "sph/internal.h"
@@ -8,7 +9,7 @@
 #define N (SPH_DIM == 1 ? 60u : SPH_DIM == 2 ? 16u : 11u)
 #define DX 0.1
 #define MOST 6000
-/* a term of a sum rounds to a few eps of its size, and so does the inverse of a tensor, whose condition is below fifty */
+/* a term of a sum rounds to a few eps of its size, the inverse of a tensor to some more: its condition is below fifty */
 #define ROUNDING (64 * EPS)
 
 static const uint32_t schemes[] = {SPH_STANDARD, SPH_WEAK};
@@ -18,7 +19,7 @@ static const uint32_t schemes[] = {SPH_STANDARD, SPH_WEAK};
    E_i = -sum V_j x_ij (x) x_ij g, V_j = m_j/rho_i (standard) or m_j/rho_j (weak), B_i = E_i^-1, P = p/rho^2 or p:
      Bonet & Lok     drho_i = sum w_d v_ij . B_i x_ij g      a_i = -sum w_a (P_i B_i + P_j B_j) x_ij g
      renormalised    the same with (B_i + B_j)/2 for B_i and B_j; viscosity along it too
-   with w_d = m_j or m_j rho_i/rho_j, w_a = m_j or m_j/(rho_i rho_j). A ghost has B = I, renormalised that of its partner. */
+   with w_d = m_j or m_j rho_i/rho_j, w_a = m_j or m_j/(rho_i rho_j). A ghost has B = I, renormalised its partner's. */
 typedef struct place {
     double x[3], v[3], m, rho, p, drho, a[3]; /* drho, a: what the kernel made of it */
     double b[3][3], rate, acc[3];             /* what it should make */
@@ -107,7 +108,8 @@ static void times_vector(double b[3][3], const double *x, double *y)
 }
 
 /* the vectors of a pair: of the rate of i, of the force by the pressures of i and of j, of viscosity */
-static void vectors_of(const sph_config *c, uint32_t i, uint32_t j, const double *x, double *rate, double *ti, double *tj, double *ev)
+static void vectors_of(const sph_config *c, uint32_t i, uint32_t j, const double *x, double *rate, double *ti,
+                       double *tj, double *ev)
 {
     times_vector(at[i].b, x, ti);
     times_vector(at[j].b, x, tj);
@@ -124,23 +126,26 @@ static void vectors_of(const sph_config *c, uint32_t i, uint32_t j, const double
 static void find_rates(const sph_config *c, uint32_t i)
 {
     const bool weak = c->scheme == SPH_WEAK;
+    const double h = c->smoothing_length;
     double x[3], rate[3], ti[3], tj[3], ev[3], v[3], g;
     for (uint32_t j = 0; j < places; j++) {
         if (!(at[i].body || at[j].body) || !pair_of(c, i, j, x, &g))
             continue;
         vectors_of(c, i, j, x, rate, ti, tj, ev);
-        const double wd = at[j].m * (weak ? at[i].rho / at[j].rho : 1), wa = at[j].m * (weak ? 1 / (at[i].rho * at[j].rho) : 1);
-        const double pi = at[i].p / (weak ? 1 : at[i].rho * at[i].rho), pj = at[j].p / (weak ? 1 : at[j].rho * at[j].rho);
+        const double m = at[j].m, ri = at[i].rho, rj = at[j].rho;
+        const double wd = m * (weak ? ri / rj : 1), wa = m * (weak ? 1 / (ri * rj) : 1);
+        const double pi = at[i].p / (weak ? 1 : ri * ri), pj = at[j].p / (weak ? 1 : rj * rj);
         for (int k = 0; k < 3; k++)
             v[k] = at[i].v[k] - at[j].v[k];
-        const double mu = dot(v, x) * c->smoothing_length / (dot(x, x) + 0.01 * c->smoothing_length * c->smoothing_length);
+        const double mu = dot(v, x) * h / (dot(x, x) + 0.01 * h * h);
         const double visc = c->viscosity == SPH_ARTIFICIAL && at[i].body && at[j].body
-                                ? -c->alpha * c->sound_speed * mu * 2 / (at[i].rho + at[j].rho) : 0;
+                                ? -c->alpha * c->sound_speed * mu * 2 / (ri + rj) : 0;
         at[i].rate += wd * dot(v, rate) * g;
         at[i].rate_size += fabs(wd * g) * (length(at[i].v) + length(at[j].v)) * length(rate);
         for (int k = 0; k < 3; k++)
-            at[i].acc[k] -= (wa * (pi * ti[k] + pj * tj[k]) + at[j].m * visc * ev[k]) * g;
-        at[i].acc_size += fabs(g) * (wa * (fabs(pi) * length(ti) + fabs(pj) * length(tj)) + at[j].m * fabs(visc) * length(ev));
+            at[i].acc[k] -= (wa * (pi * ti[k] + pj * tj[k]) + m * visc * ev[k]) * g;
+        at[i].acc_size += fabs(g) * wa * (fabs(pi) * length(ti) + fabs(pj) * length(tj));
+        at[i].acc_size += fabs(g * visc) * m * length(ev);
     }
 }
 
@@ -358,7 +363,7 @@ static void it_is_exact_beside_a_mirror(void **state)
     }
 }
 
-/* with B_i and B_j averaged it is exact where they are equal, two supports from the surface of a lattice, and only there */
+/* with B_i and B_j averaged it is exact only where they are equal: two supports from the surface of a lattice */
 static void renormalised_rates_are_exact_only_where_neighbours_agree(void **state)
 {
     (void)state;
@@ -397,7 +402,7 @@ static sph_sim *free_block(uint32_t form, uint32_t scheme, bool viscous)
     return sim;
 }
 
-/* sums of m a and x cross m a, and of their sizes: so many terms that the rounding of each, a few eps, mostly cancels */
+/* sums of m a and x cross m a, and of their sizes: of so many terms the roundings mostly cancel, 0.03 eps are left */
 static void momenta(double *force, double *torque, double *size, double *torque_size)
 {
     memset(force, 0, 3 * sizeof *force);
