@@ -8,15 +8,15 @@
                           (Wickramarachchi 2009 eqs 4.8-4.20, with the sign of his 3.77): keeps momentum and energy, but
                           not angular momentum, and is exact for linear fields only where B_i = B_j
 
-   A ghost has T = p/rho^2 I; with it K = B_i x_ij of the body. Where a ghost is the home (its density goes by continuity) it has
-   the plain gradient after Bonet & Lok, and the body's B renormalised, so that the pair's two works are of one K. Diffusion and
-   Morris's viscosity keep the plain gradient. */
+   A ghost has T = p/rho^2 I; with it K = B_i x_ij of the body. Where a ghost is the home (its density goes by
+   continuity) it has the plain gradient after Bonet & Lok, and the body's B renormalised, so that the pair's two works
+   are of one K. Diffusion and Morris's viscosity keep the plain gradient. */
 #ifndef SPH_GRADIENT_H
 #define SPH_GRADIENT_H
 
 #include "term.h"
 
-/* what a home brings: N_i or B_i, and T_i; renormalised: the share of B_i + B_j that is taken, where a ghost has B_i = 0 */
+/* what a home brings: N_i or B_i, and T_i; renormalised: the share of B_i + B_j that is taken, where a ghost has 0 */
 typedef struct sph_gradient_home {
     vreal n[SPH_NT], t[SPH_NT], share;
 } sph_gradient_home;
@@ -47,6 +47,13 @@ SPH_INLINE void sph_symmetric_times(const vreal *t, const vreal *x, vreal *y)
         for (int l = 1; l < SPH_DIM; l++)
             y[k] = y[k] + t[sph_sym[k][l]] * x[l];
     }
+}
+
+/* Whether no pair of a group is in reach: all terms are 0 there. In 3-D, where seven groups of ten are beyond, a branch
+   takes 37 % off the instructions of a step and 28 % off its time; in 2-D 10 % off those and nothing off this. */
+SPH_INLINE bool sph_all_beyond(vreal r2, sph_real reach2)
+{
+    return SPH_DIM == 3 && !v_any(v_less(r2, v_set(reach2)));
 }
 
 /* what continuity and forces take for x_ij; `row`: the candidates' T or B */

@@ -9,7 +9,7 @@
 #define N (SPH_DIM == 1 ? 60u : SPH_DIM == 2 ? 16u : 11u)
 #define DX 0.1
 #define MOST 6000
-/* a term of a sum rounds to a few eps of its size, the inverse of a tensor to some more: its condition is below fifty */
+/* a term of a sum rounds to a few eps of its size, the inverse of a tensor, whose condition is below 50, to more */
 #define ROUNDING (64 * EPS)
 
 static const uint32_t schemes[] = {SPH_STANDARD, SPH_WEAK};
