@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* adami.c: Adami's walls: pressure, and for no slip velocity, extrapolated from the bodies into wall particles, with W = W(x_wf):
+/* adami.c: Adami's walls: pressure, and for no slip velocity, extrapolated from the bodies into wall particles, with
+   W = W(x_wf):
 
      p_w = (sum p_f W + (g - a_w) . sum rho_f x_wf W)/sum W,   v_w = 2 v_wall - sum v_f W/sum W
                                                                               (Adami, Hu & Adams 2012 eqs 22-27)
 
-   No array: results wait in the wall's own rates, which are free until the forces, because other chunks may be reading the
-   densities; a local pass then makes them the wall's density and velocity. Cost: a sweep whose homes are wall particles. */
+   No array: results wait in the wall's own rates, which are free until the forces, because other chunks may be
+   reading the densities; a local pass then makes them the wall's density and velocity. Cost: a sweep whose homes are
+   wall particles. */
 #include "pair.h"
 
 #if SPH_WITH_WALL_ADAMI
@@ -75,10 +77,10 @@ static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 static void adami_copy_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    uint32_t i = chunk * SPH_LOCAL_CHUNK, last = i + SPH_LOCAL_CHUNK < sim->next.count ? i + SPH_LOCAL_CHUNK : sim->next.count;
-    t->work += last - i;
-    for (uint32_t e; i < last; i = e) {
-        e = sph_run_end(b->set[0], i, last);
+    const sph_span s = sph_chunk_span(sim, chunk);
+    t->work += s.last - s.first;
+    for (uint32_t i = s.first, e; i < s.last; i = e) {
+        e = sph_run_end(b->set[0], i, s.last);
         if (b->set[0][i] == SPH_DEAD || !adami_home(sim, &sim->set[b->set[0][i]]))
             continue;
         memcpy(b->rho[0] + i, b->drho[0] + i, (e - i) * sizeof(sph_real));

@@ -5,7 +5,8 @@
 
 #include "term.h"
 
-/* adds the acceleration that the tile of points gives to a home, and its power, to the sum BOUNDARY (components, then power) */
+/* adds the acceleration that the tile of points gives to a home, and its power, to the sum BOUNDARY (components, then
+   power) */
 #define sph_boundary_force SPH_NAME(boundary_force_)
 void sph_boundary_force(const sph_sim *sim, sph_thread *t, uint32_t home);
 

@@ -2,7 +2,7 @@
 /* continuity.h: the rate of density, of fluids (that of solids is the trace of the velocity gradient: stress.h).
 
      standard    drho_i += m_j v_ij . grad W                  (Gray 2001 eq 2.21)
-     weak        drho_i += rho_i (m_j/rho_j) v_ij . grad W    (the form that conserves energy with Wickramarachchi's 3.80)
+     weak        drho_i += rho_i (m_j/rho_j) v_ij . grad W   (conserves energy with Wickramarachchi's 3.80)
      direct      as weak                                      (Wickramarachchi 2009 eq 3.22)
      printed     standard and weak times a weight of pressures over p_i (his 3.50, 3.79) */
 #ifndef SPH_CONTINUITY_H
@@ -20,7 +20,8 @@ SPH_INLINE vreal sph_printed_weight(uint32_t scheme, const sph_factors *f, vreal
     return v_select(usable, w, v_set(1));
 }
 
-SPH_INLINE void sph_continuity(const sph_choice *c, const sph_factors *f, const sph_home *h, const sph_near *p, vreal *s)
+SPH_INLINE void sph_continuity(const sph_choice *c, const sph_factors *f, const sph_home *h, const sph_near *p,
+                               vreal *s)
 {
     if (c->solid)
         return;

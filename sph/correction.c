@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* correction.c: corrected gradients, M = -sum m_j x_ij (x) K g, kept as M^-1 (Bonet & Lok 1999); in the weak scheme with m_j/rho_j.
-   L = (-sum m_j v_ij (x) K g) M^-1 is then exact for linear fields. Not over pairs of two bodies, which know nothing of each
-   other's strain. In the total-Lagrangian form the longest bond of each home is looked at too.
+/* correction.c: corrected gradients, M = -sum m_j x_ij (x) K g, kept as M^-1 (Bonet & Lok 1999); in the weak scheme
+   with m_j/rho_j. L = (-sum m_j v_ij (x) K g) M^-1 is then exact for linear fields. Not over pairs of two bodies,
+   which know nothing of each other's strain. In the total-Lagrangian form the longest bond of each home is looked at
+   too.
 
    Array: M^-1 (DIM^2 reals, once). Cost: a sweep before the forces. */
 #include "reference.h"
@@ -46,7 +47,8 @@ SPH_INLINE void correction_pair(const void *what, uint32_t j, vreal *s)
         s[SUM_FAR] = v_max(s[SUM_FAR], v_where(same & v_less(q, c->reach), sph_dot(dx, dx)));
 }
 
-SPH_INLINE void correction_homes(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t kernel, bool weak, bool total, bool wall)
+SPH_INLINE void correction_homes(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t kernel, bool weak, bool total,
+                                 bool wall)
 {
     const uint32_t sums = SPH_SUM_MASK(SUM_M, SPH_NL) | (total ? 1u << SUM_FAR : 0);
     const sph_tile *const tile = wall ? &t->ghosts : &t->bodies;
@@ -64,7 +66,8 @@ SPH_INLINE void correction_homes(const sph_sim *sim, sph_thread *t, uint32_t hom
 static __attribute__((noinline)) void correction_any(const sph_sim *sim, sph_thread *t, uint32_t homes, bool wall)
 {
     const sph_config *c = &sim->cfg;
-    correction_homes(sim, t, homes, c->kernel, sph_weak_scheme(c->scheme), sph_is_total(c), SPH_HAS_LAYERED_WALLS && wall);
+    correction_homes(sim, t, homes, c->kernel, sph_weak_scheme(c->scheme), sph_is_total(c),
+                     SPH_HAS_LAYERED_WALLS && wall);
 }
 
 /* the same text with the choices as constants: kernel, whether total-Lagrangian; bodies, standard scheme */
@@ -74,9 +77,9 @@ static __attribute__((noinline)) void correction_any(const sph_sim *sim, sph_thr
     X(w2, SPH_WENDLAND_C2, false)                                                                                  \
     X(w2_t, SPH_WENDLAND_C2, SPH_HAS_TOTAL)
 #define SPH_FAST_FN(name, kernel_, total_)                                                                         \
-    static __attribute__((noinline, unused)) void correction_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)  \
+    static __attribute__((noinline, unused)) void correction_##name(const sph_sim *sim, sph_thread *t, uint32_t n) \
     {                                                                                                              \
-        correction_homes(sim, t, homes, kernel_, false, total_, false);                                            \
+        correction_homes(sim, t, n, kernel_, false, total_, false);                                                \
     }
 SPH_FAST_LIST(SPH_FAST_FN)
 #undef SPH_FAST_FN

@@ -3,50 +3,41 @@
 
      flaws    n(eps) = k eps^m of them a unit volume fail below the strain eps (Weibull); thresholds (p/(k V))^(1/m)
      growth   d(D^(1/DIM))/dt = active crack_speed/flaw_radius while D < active/flaws
-     stress   -P* I + (1 - D) S, P* = P in compression and (1 - D) P in tension (taken where stresses are loaded, sweep.c)
+     stress   -P* I + (1 - D) S, P* = P in compression and (1 - D) P in tension (taken where stresses are loaded)
 
-   Arrays: damage (one real in every state buffer), flaw_start (4 bytes a particle), flaws (4 bytes each, in order of particle id,
-   rising thresholds). Cost: a local pass; no sweep. */
+   Arrays: damage (one real in every state buffer), flaw_start (4 bytes a particle), flaws (4 bytes each, in order of
+   particle id, rising thresholds). Cost: a local pass; no sweep. */
 #include "locals.h"
-#include "locals.h"
+#include "tensor.h"
 
 #if SPH_HAS_DAMAGE
 #include "dmath.h"
 
 /* ---- growth ---- */
 
-/* the largest principal value of a symmetric tensor xx yy zz xy xz yz */
-static sph_real largest_principal(const sph_real *s)
+/* the largest principal value of a symmetric tensor xx yy zz xy xz yz; in plane strain zz is principal too */
+static sph_real largest_in_plane(const sph_real *s)
 {
-#if SPH_DIM == 2
     const sph_real m = (s[0] + s[1]) * (sph_real)0.5, a = (s[0] - s[1]) * (sph_real)0.5;
     const sph_real one = m + SPH_SQRT(a * a + s[3] * s[3]);
-    return one < s[2] ? s[2] : one; /* plane strain: zz is principal too */
-#else
-    /* Jacobi as in sweep.c, but for the values alone */
-    sph_real a[3][3] = {{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}};
-    static const uint8_t plane[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
-    for (int n = 0; n < 12; n++) {
-        const int p = plane[n % 3][0], q = plane[n % 3][1], r = plane[n % 3][2];
-        const sph_real apq = a[p][q];
-        if (!(apq < 0 || apq > 0))
-            continue;
-        const sph_real big = SPH_DOUBLE ? (sph_real)1e100 : (sph_real)1e15, theta = (a[q][q] - a[p][p]) / (2 * apq);
-        const sph_real size = theta < 0 ? -theta : theta, cut = size < big ? size : big;
-        const sph_real root = 1 / (cut + SPH_SQRT(cut * cut + 1)), t = theta < 0 ? -root : root;
-        const sph_real c = 1 / SPH_SQRT(t * t + 1), sn = t * c, arp = a[r][p], arq = a[r][q];
-        a[p][p] -= t * apq;
-        a[q][q] += t * apq;
-        a[p][q] = a[q][p] = 0;
-        a[r][p] = a[p][r] = c * arp - sn * arq;
-        a[r][q] = a[q][r] = sn * arp + c * arq;
-    }
-    sph_real most = a[0][0];
-    for (int k = 1; k < 3; k++)
-        most = a[k][k] > most ? a[k][k] : most;
-    return most;
-#endif
+    return one < s[2] ? s[2] : one;
 }
+static sph_real largest_in_space(const sph_real *s)
+{
+    static const uint8_t at[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+    vreal a[3][3], axes[3][3];
+    sph_real most = 0;
+    for (int k = 0; k < 9; k++)
+        a[k / 3][k % 3] = v_set(s[at[k / 3][k % 3]]);
+    sph_principal(a, axes);
+    for (int k = 0; k < 3; k++) {
+        sph_real lanes[SPH_W];
+        v_store(lanes, a[k][k]);
+        most = k == 0 || lanes[0] > most ? lanes[0] : most;
+    }
+    return most;
+}
+static sph_real largest_principal(const sph_real *s) { return SPH_DIM == 2 ? largest_in_plane(s) : largest_in_space(s); }
 
 /* strain that flaws compare themselves with */
 static sph_real flaw_strain(const sph_sim *sim, const sph_set *set, const sph_buffer *b, uint32_t i, sph_real whole)
@@ -56,20 +47,19 @@ static sph_real flaw_strain(const sph_sim *sim, const sph_set *set, const sph_bu
     (void)sph_stress_of(sim, b, i, at);
     for (int k = 0; k < 6; k++)
         s[k] = (sph_real)at[k];
-    const sph_real most = largest_principal(s), mu = sph_material_of(sim, set)->shear_r, bulk = (sph_real)(set->rho0 * set->c0 * set->c0);
+    const sph_real most = largest_principal(s), mu = sph_material_of(sim, set)->shear_r;
+    const sph_real bulk = (sph_real)(set->rho0 * set->c0 * set->c0), young = 9 * bulk * mu / (3 * bulk + mu);
     if (!(most > 0) || !(whole > 0))
         return 0;
     const sph_real d = 1 - whole;
-    return sim->cfg.damage == SPH_BENZ_ASPHAUG_GRAY ? most / (2 * mu * (1 - d * d)) : most / (whole * (9 * bulk * mu / (3 * bulk + mu)));
+    return sim->cfg.damage == SPH_BENZ_ASPHAUG_GRAY ? most / (2 * mu * (1 - d * d)) : most / (whole * young);
 }
 
 static sph_real root_of(sph_real x)
 {
-#if SPH_DIM == 2
-    return SPH_SQRT(x);
-#else
+    if (SPH_DIM == 2)
+        return SPH_SQRT(x);
     return x > 0 ? (sph_real)sph_pow((double)x, 1.0 / 3) : 0;
-#endif
 }
 
 void sph_grow_damage(const sph_sim *sim, sph_span s)

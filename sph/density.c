@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* density.c: density by summation, rho_i = sum m_j W (Gray 2001 eq 2.19), and the Shepard filter, rho_i = sum m_j W/sum (m_j/rho_j) W
-   (Wickramarachchi 2009 eq 6.3). Array: tmp, the new density until all have read the old one. Cost: a sweep and a local pass. */
+/* density.c: density by summation, rho_i = sum m_j W (Gray 2001 eq 2.19), and the Shepard filter, rho_i = sum m_j
+   W/sum (m_j/rho_j) W (Wickramarachchi 2009 eq 6.3). Array: tmp, the new density until all have read the old one.
+   Cost: a sweep and a local pass. */
 #include "pair.h"
 
 #if SPH_HAS_FILTERS
@@ -51,7 +52,8 @@ static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 }
 static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(SUM_MW, 2), true, 0, density_tile, shepard_finish};
+    static const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(SUM_MW, 2), true, 0, density_tile,
+                                shepard_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, filters_now};
@@ -61,11 +63,11 @@ const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, N
 static void copy_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    uint32_t last = (chunk + 1) * SPH_LOCAL_CHUNK < sim->next.count ? (chunk + 1) * SPH_LOCAL_CHUNK : sim->next.count;
-    for (uint32_t i = chunk * SPH_LOCAL_CHUNK; i < last; i++)
+    const sph_span s = sph_chunk_span(sim, chunk);
+    for (uint32_t i = s.first; i < s.last; i++)
         if (b->set[0][i] != SPH_DEAD && sph_is_body(&sim->set[b->set[0][i]]))
             b->rho[0][i] = sim->tmp[i];
-    t->work += last - chunk * SPH_LOCAL_CHUNK;
+    t->work += s.last - s.first;
 }
 static bool copies_density(const sph_sim *sim) { return filters_now(sim) || sph_sums_density(&sim->cfg); }
 const sph_pass sph_pass_copy_density = {"copy density", sph_local_chunks, copy_density_chunk, NULL, copies_density};

@@ -5,8 +5,9 @@
 
 #include "lanes.h"
 
-/* Pressure (Pa) from the relative density excess d = (rho - rho0)/rho0 and the pressure scale b (Pa): Tait b (s^7 - 1) in
-   Horner form, exact for small d; linear b d; isothermal b (1 + d). floor: p >= 0. (Gray 2001 eqs 2.25, 5.11, 7.1) */
+/* Pressure (Pa) from the relative density excess d = (rho - rho0)/rho0 and the pressure scale b (Pa): Tait b (s^7 -
+   1) in Horner form, exact for small d; linear b d; isothermal b (1 + d). floor: p >= 0. (Gray 2001 eqs 2.25, 5.11,
+   7.1) */
 SPH_INLINE vreal sph_pressure_of(uint32_t eos, bool floor, vreal b, vreal d)
 {
     vreal p;

@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* factors.c: constants of the pair formulas, made at init and when the configuration changes; and the Courant number that the
-   integrator stands. */
+/* factors.c: constants of the pair formulas, made at init and when the configuration changes; and the Courant number
+   that the integrator stands. */
 #include "factors.h"
 #include "kernels.h"
 
-/* The predictor-corrector evaluates forces once, at the predicted state, and keeps them: on an oscillation w it multiplies
-   the amplitude by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu + z/2 = 0, z = i w dt). Sound of the shortest waves
-   grows unless dissipation, whose effect a step goes as dt, is stronger: so the largest Courant number goes as its cube
-   root. 0.22 is what a still tank of 30 particles stands with alpha = 0.01 alone (tests/validate_water.py, G2). */
+/* The predictor-corrector evaluates forces once, at the predicted state, and keeps them: on an oscillation w it
+   multiplies the amplitude by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu + z/2 = 0, z = i w dt). Sound of the
+   shortest waves grows unless dissipation, whose effect a step goes as dt, is stronger: so the largest Courant number
+   goes as its cube root. 0.22 is what a still tank of 30 particles stands with alpha = 0.01 alone
+   (tests/validate_water.py, G2). */
 #define PC_COURANT 0.22
 #define PC_DISSIPATION (0.01 / 8) /* nu/(h c) of artificial viscosity with alpha 0.01 in 2-D */
 #define PC_COURANT_LEAST 0.05
-/* Solids stand less: with alpha 0.02, 0.1, 0.5 a free block of them kept quiet up to 0.29, 0.43, 0.65 (updated), 0.18, 0.24, 0.37
-   (corrected), where the rule for water says 0.28, 0.47, 0.81; corrected gradients raise the shortest waves' frequency. */
+/* Solids stand less: with alpha 0.02, 0.1, 0.5 a free block of them kept quiet up to 0.29, 0.43, 0.65 (updated),
+   0.18, 0.24, 0.37 (corrected), where the rule for water says 0.28, 0.47, 0.81; corrected gradients raise the
+   shortest waves' frequency. */
 #define PC_UPDATED 0.75
 #define PC_CORRECTED 0.42
-/* cube root of 1e-3 .. 1e6: Newton's rule from 1. At worst (1e6) one turn overshoots, about 20 take a third off each, 6 converge */
+/* cube root of 1e-3 .. 1e6: Newton's rule from 1. At worst (1e6) one turn overshoots, about 20 take a third off each,
+   6 converge */
 static double cube_root(double x)
 {
     double r = 1;
@@ -29,7 +32,10 @@ double sph_courant_factor(const sph_config *c)
     if (!SPH_IS(c->integrator, PREDICTOR_CORRECTOR))
         return c->cfl;
     double d = sph_diffusive(c->diffusion) ? c->delta : 0;
-    d += SPH_IS(c->viscosity, MORRIS) ? c->nu / (c->smoothing_length * c->sound_speed) : sph_viscous(c->viscosity) ? c->alpha / 8 : 0;
+    if (SPH_IS(c->viscosity, MORRIS))
+        d += c->nu / (c->smoothing_length * c->sound_speed);
+    else if (sph_viscous(c->viscosity))
+        d += c->alpha / 8;
     const double x = d / PC_DISSIPATION;
     double stands = x < 1e-3 ? 0 : x > 1e6 ? PC_COURANT * 100 : PC_COURANT * cube_root(x);
     if (sph_has_solids(c) || sph_corrects_fluids(c))
@@ -48,7 +54,8 @@ void sph_make_factors(sph_sim *sim)
     f->inv_h = (sph_real)(1 / h);
     f->eta = (sph_real)(0.01 * h * h);
     f->reach = (sph_real)support;
-    f->reach2 = (sph_real)(support * support * h * h * 1.0001); /* the scalar form skips beyond: all terms are 0 there */
+    /* the scalar form skips pairs beyond: all terms are 0 there */
+    f->reach2 = (sph_real)(support * support * h * h * 1.0001);
     f->slope = (sph_real)slope;
     f->value = (sph_real)value;
     if (sph_repels(c) || sph_is_total(c)) {
@@ -56,7 +63,8 @@ void sph_make_factors(sph_sim *sim)
         sph_kernel_value(c->kernel, c->spacing, h, &at, &dw);
         f->inv_wdx = at > 0 ? (sph_real)(value / at) : 0;
         f->repulsion = (sph_real)c->stress_epsilon;
-        f->contact = (sph_real)(2 * c->sound_speed * c->sound_speed * (sph_weak_scheme(c->scheme) ? c->rho0 : 1 / c->rho0));
+        const double density = sph_weak_scheme(c->scheme) ? c->rho0 : 1 / c->rho0;
+        f->contact = (sph_real)(2 * c->sound_speed * c->sound_speed * density);
     }
     /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = (rho_i + rho_j) |mu'| */
     f->av_alpha = (sph_real)(2 * h * c->alpha * c->sound_speed);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* forces.c: the loop over pairs that makes accelerations and rates: geometry, kernel, then one plain call a term. Each term is in
-   its own header, with its equations:
+/* forces.c: the loop over pairs that makes accelerations and rates: geometry, kernel, then one plain call a term.
+   Each term is in its own header, with its equations:
 
      continuity.h   rate of density             viscosity.h    artificial, Morris            diffusion.h    of density
      pressure.h     force of the pressure       stress.h       force of the stress, and the velocity gradient
      gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
      xsph.h         drift beside the velocity   pair_power.h   the books
 
-   The same text is compiled with the choices as constants (a line of SPH_FAST_FORCES each) and with choices read at run time (two
-   general forms: without solids and with them). Arrays: none but the state's acc, drho, xsph and the powers of the books.
-   Cost: one sweep a force evaluation. */
+   The same text is compiled with the choices as constants (a line of SPH_FAST_FORCES each) and with choices read at
+   run time (two general forms: without solids and with them). Arrays: none but the state's acc, drho, xsph and the
+   powers of the books. Cost: one sweep a force evaluation. */
 #include "boundary.h"
 #include "continuity.h"
 #include "diffusion.h"
@@ -115,7 +115,11 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
 
 SPH_INLINE void pair_bodies(const void *what, uint32_t j, vreal *s) { pair(what, false, j, s); }
 SPH_INLINE void pair_ghosts(const void *what, uint32_t j, vreal *s) { pair(what, true, j, s); }
-SPH_INLINE void pair_either(const void *what, uint32_t j, vreal *s) { pair(what, ((const at_home *)what)->c->wall, j, s); }
+SPH_INLINE void pair_either(const void *what, uint32_t j, vreal *s)
+{
+    const at_home *const o = what;
+    pair(o, o->c->wall, j, s);
+}
 
 /* the sums that these choices take */
 SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
@@ -125,7 +129,8 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
            (SPH_WITH_BOOKS && c->books ? SUM_MASK(VISCOUS) | SUM_MASK(DIFFUSED) | (wall ? SUM_MASK(WALL) : 0) : 0);
 }
 
-SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h, bool wall)
+SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h,
+                           bool wall)
 {
     const sph_home home = sph_spread_home(&t->home, h);
     at_home o = {.c = c, .f = f, .tile = wall ? &t->ghosts : &t->bodies, .home = &home};
@@ -173,19 +178,19 @@ SPH_INLINE void force_general(const sph_choice *c, const sph_sim *sim, sph_threa
         force_home(c, &sim->fac, sim, t, h, false);
 }
 /* the form that covers fluids; corrected gradients; scenes with solids */
-static __attribute__((noinline)) void force_fluid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_APART void force_fluid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = own.total = own.hat = own.repulsion = own.gradient = 0;
     force_general(&own, sim, t, h);
 }
-static __attribute__((noinline, unused)) void force_corrected(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_APART void force_corrected(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = own.total = own.hat = own.repulsion = 0;
     force_general(&own, sim, t, h);
 }
-static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_APART void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = true;
@@ -205,7 +210,8 @@ static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, c
     X(w2_h, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC)                  \
     X(w2_hw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .wall = 1)      \
     X(w2_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1)     \
-    X(w2_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1) \
+    X(w2_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1,    \
+      .wall = 1)                                                                                                   \
     X(cubic, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL)
 #define SPH_FAST_CORRECTED(X)                                                                                      \
     X(c, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK)                        \
@@ -222,13 +228,13 @@ static __attribute__((noinline, unused)) void force_solid(const sph_choice *c, c
     X(s_w2_t, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .total = 1)
 
 #define SPH_FAST_FN(name, ...)                                                                                     \
-    static __attribute__((noinline)) void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)          \
+    SPH_APART void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)                           \
     {                                                                                                              \
         static const sph_choice c = {__VA_ARGS__};                                                                 \
         const sph_factors own = sim->fac;                                                                          \
         for (uint32_t h = 0; h < homes; h++)                                                                       \
             if (!c.wall || sph_is_body(&sim->set[t->home_set[h]]))                                                 \
-                force_home(&c, &own, sim, t, h, c.wall);                                                                \
+                force_home(&c, &own, sim, t, h, c.wall);                                                           \
     }
 #define SPH_FAST_ROW(name, ...) {{__VA_ARGS__}, force_##name},
 typedef void fast_path(const sph_sim *sim, sph_thread *t, uint32_t homes);
@@ -288,7 +294,8 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0)};
 }
 
-/* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over bodies only; its acceleration is not used. */
+/* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over bodies only; its acceleration is
+   not used. */
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
     const sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);

@@ -159,7 +159,7 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
         MODULE(SPH_HAS_FILTERS, sph_pass_copy_density)
 #define FORCES                                                                                                     \
     MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami), MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami_copy),                 \
-        MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),             \
+        MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),        \
         MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
 
 typedef const sph_pass *const list[];

@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* internal.h: the simulation's own data, and which file does what.
 
-   base         report.c failures; digest.c; arithmetic.c the probe of the machine; eos.c, eos_lanes.h equations of state;
+   base         report.c failures; digest.c; arithmetic.c the probe of the machine; eos.c, eos_lanes.h equations of
+   state;
                 kernels.c smoothing kernels; dmath.c deterministic functions; tensor.h, lanes.h vectors
-   data         options.c the list of options (options.h); grid.c; fields.c the list of state fields; layout.c the arena
+   data         options.c the list of options (options.h); grid.c; fields.c the list of state fields; layout.c the
+   arena
                 (arrays.h); scratch.h of threads; state.c
-   motion       sort.c orders particles by (cell, id), move.c where they go, faces.c the domain's faces, carry.c the other
+   motion       sort.c orders particles by (cell, id), move.c where they go, faces.c the domain's faces, carry.c the
+   other
                 fields; sweep.c candidates of a cell go into tiles (tiles.c), sums come out; threads.c
    physics      one file a subject; terms of the force loop are headers: README.md in this folder lists them
    composition  forces.c the loop over pairs; columns.c what modules' candidates bring; integrators.c lists of passes
-   running      run.c programs, slices, threads, failure; limits.c the time step
-   entries      config.c, init.c; setup.c particles and boxes, bodies.c sets of fluid and solid, initial.c fields,
-                layers.c walls as rows or layers, shapes.c, flaws.c; reading.c, totals.c, probes.c; hash.c; dump.c, restore.c
-                on stream.c and records.c
+   running      run.c programs, slices, threads, failure; limits.c the time step entries      config.c, init.c;
+   setup.c particles and boxes, bodies.c sets of fluid and solid, initial.c fields,
+                layers.c walls as rows or layers, shapes.c, flaws.c; reading.c, totals.c, probes.c; hash.c; dump.c,
+                restore.c on stream.c and records.c
 
    Arrays: a state buffer holds what one moment of the scene is made of. A step reads buffer `cur`, writes another,
    and commits by changing `cur`: that is how a failed step leaves the state as it was. */
@@ -151,7 +154,7 @@ struct sph_sim {
     size_t arena_bytes, arena_used;
     /* sets */
     const struct sph_column_set *columns;    /* the table of column sets (columns.c) */
-    uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT]; /* of a thread's column sets: their reals, and where each begins */
+    uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT]; /* of a thread's column sets: reals, and where each begins */
     uint32_t sets, groups;
     uint64_t setup_hash;
     bool has_adami, has_force_wall;
@@ -224,7 +227,8 @@ _Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 &
 #define SPH_YIELDS_IN (1 << SPH_NO_YIELD | SPH_HAS_YIELD << SPH_VON_MISES | SPH_HAS_YIELD << SPH_VON_MISES_GRAY)
 #define SPH_DAMAGES_IN                                                                                      \
     (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
-#define SPH_GRADIENTS_IN (1 << SPH_PLAIN | SPH_WITH_BONET_LOK << SPH_BONET_LOK | SPH_WITH_RENORMALISED << SPH_RENORMALISED)
+#define SPH_GRADIENTS_IN                                                                                    \
+    (1 << SPH_PLAIN | SPH_WITH_BONET_LOK << SPH_BONET_LOK | SPH_WITH_RENORMALISED << SPH_RENORMALISED)
 #define SPH_REPULSIONS_IN                                                                                   \
     (1 << SPH_NO_ARTIFICIAL_STRESS | SPH_HAS_REPULSION << SPH_PRINCIPAL | SPH_HAS_REPULSION << SPH_COMPONENTS)
 
@@ -357,7 +361,10 @@ SPH_INLINE uint32_t sph_run_end(const uint8_t *set, uint32_t s, uint32_t e)
 /* Until a stage settles, array id of buffer dst holds each particle's index in src. */
 SPH_INLINE const uint32_t *sph_source_index(const sph_sim *sim) { return sim->buf[sim->dst].id[0]; }
 /* the id of particle i of dst, until the stage settles */
-SPH_INLINE uint32_t sph_source_id(const sph_sim *sim, uint32_t i) { return sim->buf[sim->src].id[0][sph_source_index(sim)[i]]; }
+SPH_INLINE uint32_t sph_source_id(const sph_sim *sim, uint32_t i)
+{
+    return sim->buf[sim->src].id[0][sph_source_index(sim)[i]];
+}
 
 /* whether a wall group is gone, and how fast it moves along an axis (m/s), at the end of the step under way */
 SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)

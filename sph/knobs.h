@@ -7,7 +7,11 @@
 #define SPH_WITH_ALL 1
 #endif
 #ifndef SPH_WITH_FAST_PATHS
+#ifdef __OPTIMIZE_SIZE__ /* where code is to be small no text is compiled twice, unless asked for */
+#define SPH_WITH_FAST_PATHS 0
+#else
 #define SPH_WITH_FAST_PATHS SPH_WITH_ALL
+#endif
 #endif
 #ifndef SPH_WITH_CUBIC
 #define SPH_WITH_CUBIC SPH_WITH_ALL

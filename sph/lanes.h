@@ -16,6 +16,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "checks.h"
 #include "sph.h"
 
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
@@ -48,6 +49,8 @@
 #ifndef SPH_SMALL
 #define SPH_SMALL 0
 #endif
+/* a form of a text that is compiled apart from its like */
+#define SPH_APART static __attribute__((noinline, unused))
 #if SPH_SMALL
 #define SPH_INLINE_BIG static __attribute__((noinline, unused))
 #else

@@ -20,7 +20,8 @@ void sph_load_mirror(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const bool mirror = SPH_IS(r->set->kind, WALL_GHOST);
     const double plane = mirror ? plane_of(r) : 0;
-    sph_real *const u0 = to + (size_t)SPH_DIM * row, *const depth = u0 + (size_t)SPH_DIM * row, *const vis = depth + row;
+    sph_real *const u0 = to + (size_t)SPH_DIM * row, *const depth = u0 + (size_t)SPH_DIM * row;
+    sph_real *const vis = depth + row;
     for (uint32_t j = 0; j < r->n; j++) {
         double x = 0;
         for (uint32_t k = 0; k < SPH_DIM; k++) {
@@ -28,7 +29,8 @@ void sph_load_mirror(const sph_candidates *r, sph_real *to, uint32_t row)
             if (mirror)
                 x += nk * (double)r->tile->x[k][r->at + j];
             to[k * row + j] = (sph_real)nk;
-            u0[k * row + j] = mirror || !r->set->no_slip ? r->tile->v[k][r->at + j] : r->b->vel[k][r->first + j] * r->im->flip[k];
+            const bool own = !mirror && r->set->no_slip; /* the velocity that a pass has found for it */
+            u0[k * row + j] = own ? r->b->vel[k][r->first + j] * r->im->flip[k] : r->tile->v[k][r->at + j];
         }
         depth[j] = mirror ? (sph_real)(plane - x > 0 ? plane - x : 0) : 0;
         vis[j] = r->set->no_slip ? 1 : 0;

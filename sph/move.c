@@ -55,14 +55,14 @@ static int64_t wall_step(const sph_sim *sim, const sph_set *s, uint32_t k)
     return (int64_t)sph_wall_moved(sim, s, k) - sim->now.group[s->group].moved[k];
 }
 
-/* wall particles go where their group goes; their density changes only by continuity */
+/* wall particles go where their group goes; their density only as its rate says */
 static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, uint32_t i, uint32_t n, sph_block *o,
                        uint32_t at)
 {
     const bool removed = sph_wall_removed(sim, s);
     bool fine = !removed;
     const sph_buffer *b = &sim->buf[sim->src];
-    /* a Runge-Kutta step has walls at the step's end in both stages: they move in the first, by the copy */
+    /* where a step has two sorts, walls are at its end in both: they move in the first */
     const bool moves = SPH_WITH_MOVING_WALLS && sim->src == sim->cur;
     for (uint32_t j = 0; j < n; j++) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {

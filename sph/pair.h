@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* pair.h: what a pair of particles is to the formulas: a home, a group of SPH_W candidates, and the sums of the home. The loops
-   that make pairs are here too: sph_sum_home, for the forces (forces.c) and for every neighbour sum that a module has for
-   itself (a gather: adami.c, density.c, correction.c, smoothing.c).
+/* pair.h: what a pair of particles is to the formulas: a home, a group of SPH_W candidates, and the sums of the home.
+   The loops that make pairs are here too: sph_sum_home, for the forces (forces.c) and for every neighbour sum that a
+   module has for itself (a gather: adami.c, density.c, correction.c, smoothing.c).
 
-   With x_ij = x_i - x_j, v_ij = v_i - v_j, g = (dW/dr)/r: grad W = g x_ij. K is the vector that the kernel sees: x_ij, or what
-   a form of the equations puts in its place. */
+   With x_ij = x_i - x_j, v_ij = v_i - v_j, g = (dW/dr)/r: grad W = g x_ij. K is the vector that the kernel sees:
+   x_ij, or what a form of the equations puts in its place. */
 #ifndef SPH_PAIR_H
 #define SPH_PAIR_H
 
@@ -13,15 +13,15 @@
 #include "sweep.h"
 #include "tensor.h"
 
-/* Vectors whose sums a home holds at a time: all that make up the eight lanes; where a register holds one real, lane after
-   lane, so that the sums of one stay in registers. The order within a lane is the same. */
+/* Vectors whose sums a home holds at a time: all that make up the eight lanes; where a register holds one real, lane
+   after lane, so that the sums of one stay in registers. The order within a lane is the same. */
 #define SPH_AT_ONCE (SPH_SCALAR ? 1 : SPH_NV)
 
 /* A pair function adds what candidates j .. j + SPH_W - 1 of a tile give to the sums s of a home. */
 typedef void (*sph_pair_fn)(const void *what, uint32_t j, vreal *s);
 
-/* One home over one tile of n candidates: the sums of the mask `sums` (bits 1 << row) go through registers. Candidate k adds to
-   lane k mod 8, in order. Always inlined, like the function that it is given, so that no call is left. */
+/* One home over one tile of n candidates: the sums of the mask `sums` (bits 1 << row) go through registers. Candidate
+   k adds to lane k mod 8, in order. Always inlined, like the function that it is given, so that no call is left. */
 SPH_INLINE void sph_sum_home(sph_thread *t, uint32_t h, uint32_t n, uint32_t sums, sph_pair_fn pair, const void *what)
 {
     vreal s[SPH_AT_ONCE][SPH_SUMS];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* pair_power.h: what a pair does to the energy, for the books, per unit mass of the home and without the kernel's scale: the power
-   of its viscous force relative to the partner (pairs of bodies are counted twice, so by half), the rate of density by diffusion,
-   and of a wall the power of its force at the wall's own velocity. */
+/* pair_power.h: what a pair does to the energy, for the books, per unit mass of the home and without the kernel's
+   scale: the power of its viscous force relative to the partner (pairs of bodies are counted twice, so by half), the
+   rate of density by diffusion, and of a wall the power of its force at the wall's own velocity. */
 #ifndef SPH_PAIR_POWER_H
 #define SPH_PAIR_POWER_H
 

@@ -3,7 +3,7 @@
 
      standard    a_i -= m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W    (Gray 2001 eq 2.17)
      weak        a_i -= m_j (p_i + p_j)/(rho_i rho_j) grad W      (Wickramarachchi 2009 eq 3.80)
-     direct      a_i -= m_j (p_j - p_i)/(rho_i rho_j) grad W      (his eq 3.21: conserves neither momentum nor energy) */
+     direct      a_i -= m_j (p_j - p_i)/(rho_i rho_j) grad W     (his eq 3.21: conserves neither momentum nor energy) */
 #ifndef SPH_PRESSURE_H
 #define SPH_PRESSURE_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* reference.c: the columns of reference positions (reference.h). Array: shift, the displacement since the start (state). */
+/* reference.c: the columns of reference positions (reference.h). Array: shift, the displacement since the start
+   (state). */
 #include "reference.h"
 
 #if SPH_HAS_TOTAL

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* reference.h: reference positions, of the total-Lagrangian form (SPH_TOTAL in sph.h): the columns, the vector K that the kernel
-   sees between two particles of one body, and the contact of two bodies. */
+/* reference.h: reference positions, of the total-Lagrangian form (SPH_TOTAL in sph.h): the columns, the vector K that
+   the kernel sees between two particles of one body, and the contact of two bodies. */
 #ifndef SPH_REFERENCE_H
 #define SPH_REFERENCE_H
 
@@ -41,10 +41,10 @@ SPH_INLINE sph_reference_home sph_spread_reference(const sph_reference_homes *r,
     return o;
 }
 
-/* Between two particles of one body the kernel sees `to`, their distance in the reference position; between two bodies (apart)
-   and all others, the distance dx that they have. */
-SPH_INLINE void sph_reference_distance(const sph_reference_home *h, const sph_reference_tile *t, uint32_t j, const vreal *dx,
-                                       vreal *to, vint *same, vint *apart)
+/* Between two particles of one body the kernel sees `to`, their distance in the reference position; between two
+   bodies (apart) and all others, the distance dx that they have. */
+SPH_INLINE void sph_reference_distance(const sph_reference_home *h, const sph_reference_tile *t, uint32_t j,
+                                       const vreal *dx, vreal *to, vint *same, vint *apart)
 {
     const vreal other = v_load(t->body + j), half = v_set((sph_real)0.5);
     *same = v_less(half, h->body) & v_equal(h->body, other);
@@ -54,7 +54,8 @@ SPH_INLINE void sph_reference_distance(const sph_reference_home *h, const sph_re
         to[k] = v_select(*same, h->k[k] - v_load(t->k[k] + j), dx[k]);
 }
 
-/* contact of two bodies: they push each other along x_ij, nearer than dx, as by a pressure rho0 c0^2 (W/W(dx) - 1) in both */
+/* contact of two bodies: they push each other along x_ij, nearer than dx, as by a pressure rho0 c0^2 (W/W(dx) - 1) in
+   both */
 SPH_INLINE void sph_contact(const sph_choice *c, const sph_factors *f, const sph_home *h, sph_near *p)
 {
     if (!SPH_HAS_TOTAL || !c->solid || !c->total || p->wall)

@@ -24,6 +24,7 @@ static sph_status load_program(sph_sim *sim, const sph_integrator *g)
     for (uint32_t k = 0; k < g->count; k++)
         if (g->passes[k])
             sim->program[sim->passes++] = g->passes[k];
+    SPH_ASSERT(sim->passes <= SPH_MAX_PROGRAM);
     sim->pc = sim->chunk = sim->chunks = 0;
     sim->work = sim->pairs = 0;
     sim->begun = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* scratch.h: the scratch of a thread: tiles of candidates and the sums of homes (sweep.h), blocks of particles (sort.c), and
-   what a pass gathers. Its capacities are part of the definition of the bits. */
+/* scratch.h: the scratch of a thread: tiles of candidates and the sums of homes (sweep.h), blocks of particles
+   (sort.c), and what a pass gathers. Its capacities are part of the definition of the bits. */
 #ifndef SPH_SCRATCH_H
 #define SPH_SCRATCH_H
 

@@ -25,8 +25,10 @@ void sph_settle(const sph_sim *sim, sph_span s)
     uint32_t *id = b->id[0], n = 0;
     const uint32_t *of = sim->buf[sim->src].id[0];
     sph_real *summed[SUMMED];
-    for (uint32_t i = s.first; i < s.last; i++)
+    for (uint32_t i = s.first; i < s.last; i++) {
+        SPH_ASSERT(id[i] < sim->src_count);
         id[i] = of[id[i]];
+    }
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(b->set[0], i, s.last);
         const uint8_t set = b->set[0][i];

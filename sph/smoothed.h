@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* smoothed.h: velocities that strain rates see, v + xsph (Gray 2001 eqs 2.22, 5.10): the column, and the pass that makes xsph
-   before the forces (smoothing.c). */
+/* smoothed.h: velocities that strain rates see, v + xsph (Gray 2001 eqs 2.22, 5.10): the column, and the pass that
+   makes xsph before the forces (smoothing.c). */
 #ifndef SPH_SMOOTHED_H
 #define SPH_SMOOTHED_H
 

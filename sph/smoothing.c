@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* smoothing.c: smoothed velocities for the strain rates of solids, u_i = xsph sum (m_j/rho_mean) (v_j - v_i) W (Gray 2001 eqs
-   2.22, 5.10). Array: xsph (state). Cost: a sweep before the forces. */
+/* smoothing.c: smoothed velocities for the strain rates of solids, u_i = xsph sum (m_j/rho_mean) (v_j - v_i) W (Gray
+   2001 eqs 2.22, 5.10). Array: xsph (state). Cost: a sweep before the forces. */
 #include "smoothed.h"
 
 #if SPH_HAS_HAT
@@ -39,7 +39,8 @@ static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SPH_DIM), false, 0, smooth_tile, smooth_finish};
+    static const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SPH_DIM), false, 0, smooth_tile,
+                                smooth_finish};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool smooths(const sph_sim *sim) { return sph_smooths_strain(&sim->cfg); }

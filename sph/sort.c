@@ -198,6 +198,7 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
                 /* NO_CELL + 1 is 0, which is a place: who stays behind ends a run and begins none */
                 while (e < n && at[j] != NO_CELL && at[e] == at[e - 1] + 1)
                     e++;
+                SPH_ASSERT(at[j] == NO_CELL || at[j] + (e - j) <= sim->next.count);
                 if (at[j] != NO_CELL)
                     put_run(b, &t->block, set + i, i, j, e - j, at[j]);
                 j = e;
@@ -227,11 +228,19 @@ static sph_status count_end(sph_sim *sim)
     }
     sim->cell[0] = 0;
     sim->next.count = sum;
+    SPH_ASSERT(sum <= sim->cfg.max_particles);
     return SPH_OK;
 }
 
 const sph_pass sph_pass_count = {"count", range_chunks, count_range, count_end, NULL};
-const sph_pass sph_pass_scatter = {"scatter", range_chunks, scatter_range, NULL, NULL};
+static sph_status scatter_end(sph_sim *sim)
+{
+    SPH_VALIDATE(sph_is_sorted(sim));
+    (void)sim;
+    return SPH_OK;
+}
+
+const sph_pass sph_pass_scatter = {"scatter", range_chunks, scatter_range, scatter_end, NULL};
 
 /* saves the slabs of src and chooses the ranges */
 void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bool table, const sph_stage *stage)

@@ -164,11 +164,11 @@ enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH
    two positions is taken off first (Fourtakas et al. 2019, linearised), so still water stays still. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
-/* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of density, and
-   the pressure force that does the same work (Bonet & Lok 1999; schemes STANDARD and WEAK); momentum, angular momentum and
-   energy stay. RENORMALISED: (B_i + B_j)/2 x_ij g in continuity, pressure and artificial viscosity (Wickramarachchi 2009 eqs
-   4.8-4.20); momentum and energy stay. Both cost a sweep and SPH_DIM (SPH_DIM + 1)/2 reals a particle; where neighbours do not
-   span space the plain gradient is taken (gradient.c). */
+/* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of
+   density, and the pressure force that does the same work (Bonet & Lok 1999; schemes STANDARD and WEAK); momentum,
+   angular momentum and energy stay. RENORMALISED: (B_i + B_j)/2 x_ij g in continuity, pressure and artificial
+   viscosity (Wickramarachchi 2009 eqs 4.8-4.20); momentum and energy stay. Both cost a sweep and SPH_DIM (SPH_DIM +
+   1)/2 reals a particle; where neighbours do not span space the plain gradient is taken (gradient.c). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:

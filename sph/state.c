@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* state.c: what every file above may ask of a simulation: a failure reported with the pass it happened in, the stress of a
-   particle, and the digest of a state buffer. */
+/* state.c: what every file above may ask of a simulation: a failure reported with the pass it happened in, the stress
+   of a particle, and the digest of a state buffer. */
 #include "internal.h"
 
 /* each knob is 0 or 1, and what the preprocessor takes a module for agrees with what the list of knobs says it needs */

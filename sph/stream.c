@@ -65,6 +65,7 @@ void sph_stream_refuse_later(sph_stream *s, sph_status st, const char *what, con
 /* n bytes of the piece to the sink, or from the source */
 static bool move_piece(sph_stream *s, uint32_t n)
 {
+    SPH_ASSERT(n <= SPH_PIECE);
     if (s->fail.status)
         return false;
     s->bytes += n;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* stress.c: the stress of solids: what a particle brings to a tile (T, and R on tension), and the rates of the deviatoric stress
-   from the velocity gradient L. The pair formulas are in stress.h.
+/* stress.c: the stress of solids: what a particle brings to a tile (T, and R on tension), and the rates of the
+   deviatoric stress from the velocity gradient L. The pair formulas are in stress.h.
 
-     rates      dS/dt = 2 mu (e - tr e/3) + W S - S W,  e = (L + L^T)/2, W = (L - L^T)/2   (Jaumann; Gray 2001 eqs 5.7-5.9)
+     rates      dS/dt = 2 mu (e - tr e/3) + W S - S W,  e = (L + L^T)/2, W = (L - L^T)/2 (Jaumann; Gray 2001 eqs 5.7-5.9)
 
    Arrays: stress and dstress (1, 3 or 5 reals each, in every state buffer). Cost: the sums of the force sweep. */
 #include "stress.h"
@@ -12,11 +12,12 @@
 
 /* ---- columns ---- */
 
-/* Artificial stress of a symmetric stress tensor, positive in tension: r = eps w (its tensile part), w being 1/rho^2 or 1. By
-   components: each component where it is positive (Monaghan 2000). On principal axes: sum over the principal stresses above 0
-   of eps w sigma n (x) n. In 2-D with m = (xx + yy)/2, a = (xx - yy)/2 and d = sqrt(a^2 + xy^2) they are m +- d, and
-   n (x) n = (1 +- [a xy; xy -a]/d)/2; where d vanishes the axes are not defined, but the difference of the two tensile parts
-   is at most 2 d, so a floor `small` under the divisor is all it takes (Gray 2001 section 5.4 adds a stress difference). */
+/* Artificial stress of a symmetric stress tensor, positive in tension: r = eps w (its tensile part), w being 1/rho^2
+   or 1. By components: each component where it is positive (Monaghan 2000). On principal axes: sum over the principal
+   stresses above 0 of eps w sigma n (x) n. In 2-D with m = (xx + yy)/2, a = (xx - yy)/2 and d = sqrt(a^2 + xy^2) they
+   are m +- d, and n (x) n = (1 +- [a xy; xy -a]/d)/2; where d vanishes the axes are not defined, but the difference
+   of the two tensile parts is at most 2 d, so a floor `small` under the divisor is all it takes (Gray 2001 section
+   5.4 adds a stress difference). */
 SPH_INLINE void tensile_part_2d(const vreal *sigma, vreal small, vreal *r)
 {
     const vreal half = v_set((sph_real)0.5), xx = sigma[0], yy = sigma[SPH_DIM > 1], xy = sigma[SPH_NT - 1];
@@ -53,8 +54,8 @@ SPH_INLINE void tensile_part(const vreal *sigma, bool principal, vreal small, vr
 /* sigma of W particles from index i on: -p I and, of solids, the deviator, after damage (Gray 2001 eqs 5.33, 5.34) */
 SPH_INLINE void stress_at(const sph_candidates *r, uint32_t i, vreal excess, vreal *s)
 {
-    const bool solid = sph_is_solid(r->set);
-    vreal p = sph_pressure_of(r->set->eos, r->sim->cfg.pressure_floor && !solid, v_set(r->set->b_r), excess), kept[SPH_NS];
+    const bool floor = r->sim->cfg.pressure_floor && !sph_is_solid(r->set);
+    vreal p = sph_pressure_of(r->set->eos, floor, v_set(r->set->b_r), excess), kept[SPH_NS];
     SPH_UNROLL
     for (int k = 0; k < SPH_NS; k++)
         kept[k] = v_load(r->b->stress[k] + i);
@@ -158,9 +159,9 @@ static void jaumann(const sph_real (*l)[SPH_DIM], const sph_real (*s)[SPH_DIM], 
         }
 }
 
-/* Kick-drift-kick and leap-frog take rates once in a step dt, from the velocity of its middle at the places of its end. What
-   stands here turns them into those of the middle to second order, so that finite strains and turns are followed to dt^2:
-   L = G + dt/2 G G of the gradient G found, and S half a step on where S turns. */
+/* Kick-drift-kick and leap-frog take rates once in a step dt, from the velocity of its middle at the places of its
+   end. What stands here turns them into those of the middle to second order, so that finite strains and turns are
+   followed to dt^2: L = G + dt/2 G G of the gradient G found, and S half a step on where S turns. */
 static void to_the_middle(sph_real dt, sph_real mu, sph_real (*l)[SPH_DIM], sph_real (*s)[SPH_DIM])
 {
     sph_real g[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM];

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* stress.h: the stress of solids in the force loop (SPH_UPDATED ... in sph.h). T is stored as pressure is, positive in
-   compression, so that a pair adds to the sum of accelerations what pressure does:
+/* stress.h: the stress of solids in the force loop (SPH_UPDATED ... in sph.h). T is stored as pressure is, positive
+   in compression, so that a pair adds to the sum of accelerations what pressure does:
 
      force      a_i -= m_j (T_i + T_j + (R_i + R_j) (W/W(dx))^n) . K g    (Gray 2001 eqs 5.9, 5.21)
      gradient   sum m_j v_ij (x) K g, from which stress.c makes the rates
 
-   T is -sigma/rho^2; with corrected gradients -sigma M^-T/rho; in the weak scheme the same without rho, and the pair divides by
-   rho_i rho_j. R is the artificial stress, on tension. */
+   T is -sigma/rho^2; with corrected gradients -sigma M^-T/rho; in the weak scheme the same without rho, and the pair
+   divides by rho_i rho_j. R is the artificial stress, on tension. */
 #ifndef SPH_STRESS_H
 #define SPH_STRESS_H
 
@@ -39,7 +39,8 @@ sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, co
 typedef struct sph_stress_home {
     vreal t[SPH_NL], r[SPH_NT], u[SPH_DIM]; /* u: velocity that strain rates see */
 } sph_stress_home;
-SPH_INLINE sph_stress_home sph_spread_stress(const sph_choice *c, const sph_stress_homes *st, const sph_real *u, uint32_t h)
+SPH_INLINE sph_stress_home sph_spread_stress(const sph_choice *c, const sph_stress_homes *st, const sph_real *u,
+                                             uint32_t h)
 {
     sph_stress_home o;
     SPH_UNROLL_MANY
@@ -67,8 +68,8 @@ SPH_INLINE vreal sph_small_power(vreal f, uint32_t n)
 }
 
 /* T_i + T_j + (R_i + R_j) f^n, component k, l; a wall's is its pressure */
-SPH_INLINE vreal sph_stress_sum(const sph_choice *c, const sph_stress_home *h, const sph_stress_tile *t, const sph_near *p, int k,
-                                int l, vreal fn)
+SPH_INLINE vreal sph_stress_sum(const sph_choice *c, const sph_stress_home *h, const sph_stress_tile *t, const sph_near *p,
+                                int k, int l, vreal fn)
 {
     vreal sum = h->t[k * SPH_DIM + l];
     if (!p->wall)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* sweep.c: fills tiles and hands them to a pass (see sweep.h). Costs no array beyond a thread's scratch.
 
-   The candidates of a cell come in this order: rows of cells from low to high, in a row first an image at the low end,
-   then the cells themselves from low to high, then an image at the high end, inside a cell by id. The particles of up to
-   three neighbouring cells of a row are contiguous in memory, so a row is one copy. */
+   The candidates of a cell come in this order: rows of cells from low to high, in a row first an image at the low
+   end, then the cells themselves from low to high, then an image at the high end, inside a cell by id. The particles
+   of up to three neighbouring cells of a row are contiguous in memory, so a row is one copy. */
 #include "sweep.h"
 
 typedef struct filling {
@@ -42,7 +42,7 @@ static __attribute__((noinline)) void close_sets(const filling *f, uint32_t n, b
 
 /* ---- tiles ---- */
 
-/* how many candidates a class's tile has; solids stand in the bodies' tile with fluids */
+/* how many candidates a class's tile has; all that moves by forces stands in one tile */
 SPH_INLINE uint32_t *tile_count(sph_thread *t, uint32_t role)
 {
     if (SPH_HAS_LAYERED_WALLS && role == SPH_ROLE_GHOST)
@@ -60,6 +60,8 @@ static void flush(filling *f, uint32_t role)
     uint32_t *n = tile_count(t, role);
     if (*n == 0)
         return;
+    SPH_ASSERT(*n <= SPH_TILE);
+    SPH_VALIDATE(role == SPH_ROLE_FORCE_WALL || sph_is_tile_sound(ghosts ? &t->ghosts : &t->bodies));
     if (!SPH_HAS_FORCE_WALLS || role != SPH_ROLE_FORCE_WALL) {
         sph_close_tile(f->sim, ghosts ? &t->ghosts : &t->bodies);
         if (f->w->columns)
@@ -93,7 +95,8 @@ static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_
         if (*n == SPH_TILE)
             flush(f, role);
         const uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
-        const sph_candidates r = {f->sim, f->b, im, set, f->origin, s, take, role == SPH_ROLE_GHOST ? &f->t->ghosts : &f->t->bodies, *n};
+        const sph_tile *const tile = role == SPH_ROLE_GHOST ? &f->t->ghosts : &f->t->bodies;
+        const sph_candidates r = {f->sim, f->b, im, set, f->origin, s, take, tile, *n};
         load_run(f, &r, role);
         *n += take;
         s += take;
@@ -115,7 +118,8 @@ static void add_cells(filling *f, const sph_image *im, uint32_t c0, uint32_t c1)
     }
 }
 
-/* Cell c + o along axis k: its index if it exists, directly or as an image (then im is changed); false if nothing is there. */
+/* Cell c + o along axis k: its index if it exists, directly or as an image (then im is changed); false if nothing is
+   there. */
 static bool look(const sph_sim *sim, uint32_t k, uint32_t c, int o, uint32_t *cell, sph_image *im)
 {
     const uint32_t n = sim->grid.ncell[k];
@@ -238,6 +242,7 @@ static void load_homes(filling *f, uint32_t *s, uint32_t e)
         *s += n;
     }
     f->homes = t->home.n;
+    SPH_ASSERT(f->homes <= SPH_HOMES);
 }
 
 /* sums of eight homes; a fixed number of vector stores costs less than finding out how many are needed */
@@ -253,6 +258,7 @@ static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
 {
     const sph_sim *sim = f->sim;
     uint32_t s = sim->cell[cell], e = sim->cell[cell + 1];
+    SPH_ASSERT(s <= e && e <= sim->next.count);
     for (uint32_t k = 0; k < SPH_DIM; k++)
         f->origin[k] = (sph_pos)c[k] * sim->grid.cell_size[k];
     while (s < e) {
@@ -291,6 +297,7 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     f.t = t;
     f.b = &sim->buf[sim->dst];
     f.homes = 0;
+    SPH_ASSERT(w->sums >> SPH_SUMS == 0 && w->columns >> SPH_COLUMN_COUNT == 0);
     uint64_t before = t->pairs;
     uint32_t cell = chunk * sim->chunk_cells, c[3] = {0}, q = cell;
     const uint32_t left = sim->grid.cells - cell, last = cell + (left < sim->chunk_cells ? left : sim->chunk_cells);

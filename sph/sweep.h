@@ -45,9 +45,10 @@ SPH_INLINE vreal sph_seen_tensor(const sph_candidates *r, uint32_t k, uint32_t l
     return r->im->is_image && k != l ? v * (sph_real)(r->im->sign[k] * r->im->sign[l]) : v;
 }
 
-/* A column set: rows of reals that a module's candidates (and, of bodies, homes) bring beside those of every tile. The
-   loader writes row r of particle `first` + j to to[r * row + j], j = 0 .. n - 1, and may write SPH_W - 1 elements more.
-   Behind the last candidate all are 0. The module overlays a struct of its own on the rows in its header. */
+/* A column set: rows of reals that a module's candidates (and, of bodies, homes) bring beside those of every tile.
+   The loader writes row r of particle `first` + j to to[r * row + j], j = 0 .. n - 1, and may write SPH_W - 1
+   elements more. Behind the last candidate all are 0. The module overlays a struct of its own on the rows in its
+   header. */
 struct sph_column_set {
     uint8_t ghosts; /* 1: of ghosts; 0: of bodies, and of homes */
     uint8_t rows;
@@ -90,6 +91,13 @@ void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value);
 void sph_clear_threads(sph_sim *sim);
 #define sph_gather_threads SPH_NAME(gather_threads_)
 sph_fail sph_gather_threads(sph_sim *sim);
+
+/* validate.c: what SPH_VALIDATE asks: buffer dst in order of cells and ids, each particle of src at most once, all inside the
+   domain; the columns of a tile finite, with mass */
+#define sph_is_sorted SPH_NAME(is_sorted_)
+bool sph_is_sorted(const sph_sim *sim);
+#define sph_is_tile_sound SPH_NAME(is_tile_sound_)
+bool sph_is_tile_sound(const sph_tile *t);
 
 /* tiles.c: the columns of every tile, for a run; `homes`: into the tile of homes */
 #define sph_load_tile SPH_NAME(load_tile_)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* tensor.h: small tensors on lanes. A symmetric tensor is kept as its diagonal, then xy, xz, yz (SPH_NT components); the
-   deviatoric stress of the state lacks the last diagonal component in 3-D (SPH_NS). Loops run over SPH_DIM axes. */
+/* tensor.h: small tensors on lanes. A symmetric tensor is kept as its diagonal, then xy, xz, yz (SPH_NT components);
+   the deviatoric stress of the state lacks the last diagonal component in 3-D (SPH_NS). Loops run over SPH_DIM axes.
+   */
 #ifndef SPH_TENSOR_H
 #define SPH_TENSOR_H
 
@@ -89,8 +90,9 @@ SPH_INLINE sph_real sph_cofactor(const sph_real (*m)[SPH_DIM], int k, int l)
     return m[a][c] * m[b][d] - m[a][d] * m[b][c];
 }
 
-/* Inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same norm (not the
-   trace: where a body has turned since its reference position, M has turned on one side), or not above `least`. */
+/* Inverse of m, or false where it is nearly singular: a determinant below a thousandth of a ball's with the same norm
+   (not the trace: where a body has turned since its reference position, M has turned on one side), or not above
+   `least`. */
 SPH_INLINE_BIG bool sph_invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM], sph_real least)
 {
     sph_real mean = 0, co[SPH_DIM][SPH_DIM];

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* term.h: what the terms of the force loop share (forces.c): the choices of a scene, a home, a group of candidates near it, and
-   the list of sums. A term is an always-inline function in its own header that begins with "not chosen: return"; choices are
-   constants in the fast paths and read at run time in the general forms. The order of terms is part of the bits. */
+/* term.h: what the terms of the force loop share (forces.c): the choices of a scene, a home, a group of candidates
+   near it, and the list of sums. A term is an always-inline function in its own header that begins with "not chosen:
+   return"; choices are constants in the fast paths and read at run time in the general forms. The order of terms is
+   part of the bits. */
 #ifndef SPH_TERM_H
 #define SPH_TERM_H
 
@@ -40,7 +41,10 @@ SPH_INLINE bool sph_rate_by_density(uint32_t scheme, uint32_t gradient)
 {
     return sph_weak_scheme(scheme) || SPH_IS(gradient, BONET_LOK);
 }
-SPH_INLINE bool sph_needs_inv_rho(uint32_t scheme, uint32_t diffusion) { return sph_weak_scheme(scheme) || sph_diffusive(diffusion); }
+SPH_INLINE bool sph_needs_inv_rho(uint32_t scheme, uint32_t diffusion)
+{
+    return sph_weak_scheme(scheme) || sph_diffusive(diffusion);
+}
 
 /* what a home particle brings to each pair, spread over the lanes once */
 typedef struct sph_home {

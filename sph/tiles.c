@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* tiles.c: the columns that every candidate brings into a tile (scratch.h): place, velocity, mass, density, pressure. The
-   pressure comes from the relative density excess by the set's equation of state (Gray 2001 eq 2.25), in the form that the
-   scheme sums. Costs no array. Choices are constants in the fast paths and read at run time in the general one. */
+/* tiles.c: the columns that every candidate brings into a tile (scratch.h): place, velocity, mass, density, pressure.
+   The pressure comes from the relative density excess by the set's equation of state (Gray 2001 eq 2.25), in the form
+   that the scheme sums. Costs no array. Choices are constants in the fast paths and read at run time in the general
+   one. */
 #include "eos_lanes.h"
 #include "sweep.h"
 
@@ -18,8 +19,8 @@ typedef struct tile_choice {
     bool wall, is_image;        /* velocities of a wall's group; seen through an image */
 } tile_choice;
 
-/* Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by the
-   next run or by sph_close_tile. */
+/* Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by
+   the next run or by sph_close_tile. */
 SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copied, tile_choice c)
 {
     const sph_sim *sim = r->sim;
@@ -61,11 +62,12 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
         }
 }
 
-static __attribute__((noinline)) void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
+SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
 {
     const sph_config *c = &r->sim->cfg;
-    const tile_choice own = {r->set->eos, !sph_weak_scheme(c->scheme), c->pressure_floor && !sph_is_solid(r->set), inv_rho,
-                             SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, SPH_HAS_IMAGES && r->im->is_image};
+    const bool floor = c->pressure_floor && !sph_is_solid(r->set), wall = r->set->role == SPH_ROLE_GHOST;
+    const tile_choice own = {r->set->eos, !sph_weak_scheme(c->scheme),   floor,
+                             inv_rho,     SPH_HAS_LAYERED_WALLS && wall, SPH_HAS_IMAGES && r->im->is_image};
     load_columns(r, t, COPIED, own);
 }
 
@@ -80,7 +82,7 @@ static __attribute__((noinline)) void load_any(const sph_candidates *r, sph_tile
     X(wall, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                                           \
     X(wall_diffusive, true, true, SPH_HAS_LAYERED_WALLS, COPIED)
 #define SPH_FAST_FN(name, floor_, inv_rho_, wall_, copied)                                                         \
-    static __attribute__((noinline, unused)) void load_##name(const sph_candidates *r, sph_tile *t)                       \
+    SPH_APART void load_##name(const sph_candidates *r, sph_tile *t)                                               \
     {                                                                                                              \
         load_columns(r, t, copied, (tile_choice){SPH_TAIT, true, floor_, inv_rho_, wall_, false});                 \
     }
@@ -93,7 +95,7 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, bool inv_rho, bool home
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST;
     const bool floor = c->pressure_floor && !sph_is_solid(r->set);
     const uint32_t copied = homes ? COPIED_HOMES : COPIED;
-    const bool usual = SPH_WITH_FAST_PATHS && SPH_IS(r->set->eos, TAIT) && SPH_IS(c->scheme, STANDARD) && !r->im->is_image;
+    const bool usual = SPH_WITH_FAST_PATHS && !r->im->is_image && SPH_IS(r->set->eos, TAIT) && SPH_IS(c->scheme, STANDARD);
     (void)copied;
 #define SPH_FAST_TRY(name, floor_, inv_rho_, wall_, copied_)                                                       \
     if (usual && floor == (floor_) && inv_rho == (inv_rho_) && wall == (wall_) && copied == (copied_)) {           \

@@ -2,10 +2,11 @@
 /* viscosity.h: artificial viscosity and Morris's. With mu = v_ij . x_ij/(r^2 + 0.01 h^2):
 
      artificial   a_i -= m_j Pi grad W,  Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu    (Gray 2001 eq 2.18)
-     approaching  the same, on approaching pairs only                                      (Wickramarachchi 2009 eq 3.18)
+     approaching  the same, on approaching pairs only                                     (Wickramarachchi 2009 eq 3.18)
      Morris       a_i += m_j 4 nu/(rho_i + rho_j) (g r^2)/(r^2 + 0.01 h^2) v_ij            (Morris, Fox & Zhu 1997)
 
-   With a ghost wall the velocity is mirrored: v_ij is multiplied by beta = 1 + min(depth/distance, 1/2) (Gray 2.42, 2.43). */
+   With a ghost wall the velocity is mirrored: v_ij is multiplied by beta = 1 + min(depth/distance, 1/2) (Gray 2.42,
+   2.43). */
 #ifndef SPH_VISCOSITY_H
 #define SPH_VISCOSITY_H
 
@@ -35,8 +36,8 @@ SPH_INLINE void sph_inverse_distance(const sph_choice *c, const sph_factors *f, 
     p->inv = asked ? 1 / ((p->r2 + f->eta) * (h->rho + p->rho)) : p->r2;
 }
 
-SPH_INLINE void sph_viscosity(const sph_choice *c, const sph_factors *f, const sph_home *h, const sph_mirror_tile *m, sph_near *p,
-                              vreal *s)
+SPH_INLINE void sph_viscosity(const sph_choice *c, const sph_factors *f, const sph_home *h, const sph_mirror_tile *m,
+                              sph_near *p, vreal *s)
 {
     p->visc = p->fm = v_set(0);
     if (!sph_viscous(c->viscosity))

@@ -22,11 +22,16 @@ CALLS = [
     (r"->end\(", [("pass", 3)]),
     (r"->wanted\(", [("pass", 4)]),
     (r"->home\(", [("sweep", 0)]),
-    (r"->tile\(", [("sweep", 4)]),
-    (r"->finish\(", [("sweep", 5)]),
+    (r"->tile\(", [("sweep", 5)]),
+    (r"->finish\(", [("sweep", 6)]),
+    (r"\.load\(", ["sph_load_mirror", "sph_load_stress", "sph_load_reference",
+                  "sph_load_smoothed", "sph_load_gradient"]),
+    (r"\bfast\(sim, t, homes\)", ["force_w2", "force_w2_w", "force_w2_h", "force_w2_hw", "force_w2_hb", "force_w2_hbw",
+                                 "force_cubic", "force_c", "force_c_w", "force_c_hb", "force_c_hbw", "force_s_cubic",
+                                 "force_s_cubic_r", "force_s_w2", "force_s_w2_r", "force_s_w2_t"]),
     (r"\.parallel\(", ["run_job"]),  # the host's own frames are its own
     (r"\.motion\(", ["motion_table"]),
-    (r"->(sink|source)\(|\.stage_log\(|->stage_log\(|body_force\(|\.fault\(|\bfn\(", [HOST]),
+    (r"->(sink|source)\(|\.stage_log\(|->stage_log\(|body_force\(|[.>]fault\(|\bfn\(", [HOST]),
     (r"\binside\(|->inside\(", ["in_shape", "in_polygon"]),
 ]
 
@@ -93,6 +98,7 @@ class Graph:
                 fail(f"{place}: a call through a pointer that CALLS does not know: {text.strip()}")
             for t in targets[0]:
                 names = table.get(t, set()) if isinstance(t, tuple) else {t}
+                names = names | {n[4:] for n in names if n.startswith("sph_")}  # sph_x is the macro of sphNP_x_
                 reached = [n for name in names for n in self.by_name.get(name, [])]
                 if isinstance(t, tuple) and not names:  # names that reach nothing were compiled out
                     fail(f"{place}: no function stands in field {t[1]} of a {t[0]}")

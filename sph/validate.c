@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* validate.c: what SPH_VALIDATE asks after a sort and before a tile is worked off (checks.h). No array: ids are marked in the
+   scratch of thread 0, as many at a time as it has bits. */
+#include "sweep.h"
+
+/* every index of the source buffer stands at most once in buffer dst */
+static bool each_once(const sph_sim *sim)
+{
+    unsigned char *const seen = (unsigned char *)sim->thread[0].sum;
+    const uint32_t *const from = sph_source_index(sim);
+    const uint32_t bits = (uint32_t)sizeof sim->thread[0].sum * 8;
+    bool once = true;
+    for (uint32_t first = 0; once && first < sim->src_count; first += bits) {
+        memset(seen, 0, sizeof sim->thread[0].sum);
+        for (uint32_t i = 0; once && i < sim->next.count; i++) {
+            const uint32_t at = from[i] - first;
+            once = from[i] < sim->src_count && (at >= bits || !(seen[at / 8] >> at % 8 & 1));
+            if (at < bits)
+                seen[at / 8] = (unsigned char)(seen[at / 8] | 1u << at % 8);
+        }
+    }
+    return once;
+}
+
+bool sph_is_sorted(const sph_sim *sim)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    bool fine = sim->cell[0] == 0 && sim->cell[sim->grid.cells] == sim->next.count && each_once(sim);
+    for (uint32_t c = 0; fine && c < sim->grid.cells; c++)
+        for (uint32_t i = sim->cell[c]; fine && i < sim->cell[c + 1]; i++) {
+            sph_pos q[SPH_DIM];
+            for (uint32_t k = 0; k < SPH_DIM; k++) {
+                q[k] = b->pos[k][i];
+                fine &= q[k] >= 0 && q[k] < sim->grid.extent[k];
+            }
+            fine = fine && sph_cell_of(sim, q) == c;
+            fine &= i == sim->cell[c] || sph_source_id(sim, i - 1) < sph_source_id(sim, i);
+        }
+    return fine;
+}
+
+bool sph_is_tile_sound(const sph_tile *t)
+{
+    bool fine = t->n <= SPH_TILE;
+    for (uint32_t j = 0; j < t->n; j++) {
+        sph_real sum = t->m[j] + t->rho[j] + t->press[j];
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            sum += t->x[k][j] + t->v[k][j];
+        fine &= sum - sum == 0 && t->m[j] > 0;
+    }
+    return fine;
+}
