@@ -27,12 +27,12 @@ typedef struct place {
     bool body, corrected;
 } place;
 static place at[MOST];
-static uint32_t places;
+static uint32_t places, own; /* own: those that are no images */
 
 static void read_places(const sph_sim *sim)
 {
     const sph_buffer *b = &sim->buf[sim->cur];
-    places = sph_count(sim);
+    places = own = sph_count(sim);
     assert_true(places > 0 && places <= MOST);
     memset(at, 0, sizeof at);
     for (uint32_t i = 0; i < places; i++) {
@@ -149,13 +149,33 @@ static void find_rates(const sph_config *c, uint32_t i)
     }
 }
 
+/* all places once more, behind a mirror at the low end of the first axis or a period further on */
+static void add_images(bool mirror, double shift)
+{
+    assert_true(places + own <= MOST);
+    for (uint32_t i = 0; i < own; i++, places++) {
+        at[places] = at[i];
+        at[places].x[0] = (mirror ? -1 : 1) * at[i].x[0] + shift;
+        at[places].v[0] = (mirror ? -1 : 1) * at[i].v[0];
+    }
+}
+
 static void find_all(const sph_sim *sim)
 {
+    const sph_config *const c = &sim->cfg;
+    const bool periodic = c->face[0][0] == SPH_PERIODIC;
     read_places(sim);
-    for (uint32_t i = 0; i < places; i++)
-        find_correction(&sim->cfg, i);
-    for (uint32_t i = 0; i < places; i++)
-        find_rates(&sim->cfg, i);
+    if (c->face[0][0] == SPH_SYMMETRY)
+        add_images(true, 0);
+    for (int k = -1; periodic && k < 2; k += 2)
+        add_images(false, k * (c->hi[0] - c->lo[0]));
+    for (uint32_t i = 0; i < (periodic ? own : places); i++)
+        find_correction(c, i);
+    for (uint32_t i = own; periodic && i < places; i++)
+        memcpy(at[i].b, at[i % own].b, sizeof at[i].b);
+    for (uint32_t i = 0; i < own; i++)
+        find_rates(c, i);
+    places = own;
 }
 
 /* ---- set-ups ---- */
@@ -246,6 +266,27 @@ static void rates_are_those_of_the_sums_over_all_pairs(void **state)
                 sph_sim *sim = new_sim(&c);
                 must(sim, sph_add_fluid(sim, NULL, &set));
                 random_cloud(sim, set, N - 3, DX, 0.15, 0.5, 20);
+                must(sim, sph_ready(sim));
+                check_rates(sim);
+                assert_int_equal(free_sims(NULL), 0);
+            }
+}
+
+static void rates_beside_seams_and_mirrors_are_those_of_the_sums(void **state)
+{
+    (void)state;
+    for (uint32_t form = SPH_BONET_LOK; form < SPH_GRADIENTS; form++)
+        for (int s = 0; s < 2; s++)
+            for (int mirror = 0; mirror < 2; mirror++) {
+                sph_config c = gradient_config(form, schemes[s]);
+                uint32_t set;
+                c.lo[0] = 0;
+                c.hi[0] = mirror ? c.hi[0] : N * DX;
+                c.face[0][0] = mirror ? SPH_SYMMETRY : SPH_PERIODIC;
+                c.face[0][1] = mirror ? SPH_OPEN : SPH_PERIODIC;
+                sph_sim *sim = new_sim(&c);
+                must(sim, sph_add_fluid(sim, NULL, &set));
+                random_cloud(sim, set, N, DX, 0.15, 0.5, 20);
                 must(sim, sph_ready(sim));
                 check_rates(sim);
                 assert_int_equal(free_sims(NULL), 0);
@@ -650,6 +691,7 @@ int main(void)
 {
     const struct CMUnitTest list[] = {
         subject(rates_are_those_of_the_sums_over_all_pairs),
+        subject(rates_beside_seams_and_mirrors_are_those_of_the_sums),
         subject(rates_beside_moving_walls_are_those_of_the_sums),
         subject(the_rate_of_a_linear_velocity_is_exact),
         subject(it_is_exact_across_a_seam),
