@@ -62,27 +62,31 @@ static double adjugate(double m[3][3], double adj[3][3])
     return m[0][0] * adj[0][0] + m[0][1] * adj[1][0] + m[0][2] * adj[2][0];
 }
 
-/* x_ij, and g at its length; false beyond the support */
-static bool pair_of(const sph_config *c, uint32_t i, uint32_t j, double *x, double *g)
+/* x_ij, and g at its length; false beyond the support. steep: g at nine tenths of it, larger, what its rounding is
+   measured by, because near the support's end g falls steeply to 0 */
+static bool pair_of(const sph_config *c, uint32_t i, uint32_t j, double *x, double *g, double *steep)
 {
+    const double h = c->smoothing_length;
     double r = 0, w, dw;
     for (int k = 0; k < 3; k++) {
         x[k] = at[i].x[k] - at[j].x[k];
         r += x[k] * x[k];
     }
     r = sqrt(r);
-    if (i == j || r >= c->smoothing_length * 3)
+    if (i == j || r >= h * 3)
         return false;
-    assert_int_equal(sph_kernel_value(c->kernel, r, c->smoothing_length, &w, &dw), SPH_OK);
+    assert_int_equal(sph_kernel_value(c->kernel, 0.9 * r, h, &w, &dw), SPH_OK);
+    *steep = -dw / (0.9 * r);
+    assert_int_equal(sph_kernel_value(c->kernel, r, h, &w, &dw), SPH_OK);
     *g = dw / r;
     return true;
 }
 
 static void find_correction(const sph_config *c, uint32_t i)
 {
-    double e[3][3] = {{0}}, adj[3][3], x[3], g, size = 0;
+    double e[3][3] = {{0}}, adj[3][3], x[3], g, steep, size = 0;
     for (uint32_t j = 0; j < places; j++) {
-        if (!pair_of(c, i, j, x, &g))
+        if (!pair_of(c, i, j, x, &g, &steep))
             continue;
         const double v = at[j].m / (c->scheme == SPH_WEAK ? at[j].rho : at[i].rho);
         for (int k = 0; k < 9; k++)
@@ -127,9 +131,9 @@ static void find_rates(const sph_config *c, uint32_t i)
 {
     const bool weak = c->scheme == SPH_WEAK;
     const double h = c->smoothing_length;
-    double x[3], rate[3], ti[3], tj[3], ev[3], v[3], g;
+    double x[3], rate[3], ti[3], tj[3], ev[3], v[3], g, steep;
     for (uint32_t j = 0; j < places; j++) {
-        if (!(at[i].body || at[j].body) || !pair_of(c, i, j, x, &g))
+        if (!(at[i].body || at[j].body) || !pair_of(c, i, j, x, &g, &steep))
             continue;
         vectors_of(c, i, j, x, rate, ti, tj, ev);
         const double m = at[j].m, ri = at[i].rho, rj = at[j].rho;
@@ -141,11 +145,11 @@ static void find_rates(const sph_config *c, uint32_t i)
         const double visc = c->viscosity == SPH_ARTIFICIAL && at[i].body && at[j].body
                                 ? -c->alpha * c->sound_speed * mu * 2 / (ri + rj) : 0;
         at[i].rate += wd * dot(v, rate) * g;
-        at[i].rate_size += fabs(wd * g) * (length(at[i].v) + length(at[j].v)) * length(rate);
+        at[i].rate_size += wd * steep * (length(at[i].v) + length(at[j].v)) * length(rate);
         for (int k = 0; k < 3; k++)
             at[i].acc[k] -= (wa * (pi * ti[k] + pj * tj[k]) + m * visc * ev[k]) * g;
-        at[i].acc_size += fabs(g) * wa * (fabs(pi) * length(ti) + fabs(pj) * length(tj));
-        at[i].acc_size += fabs(g * visc) * m * length(ev);
+        at[i].acc_size += steep * wa * (fabs(pi) * length(ti) + fabs(pj) * length(tj));
+        at[i].acc_size += steep * fabs(visc) * m * length(ev);
     }
 }
 
@@ -190,7 +194,21 @@ static sph_config gradient_config(uint32_t form, uint32_t scheme)
     return c;
 }
 
-/* a jittered cloud of random densities, with the velocity A x */
+typedef struct linear {
+    double (*a)[3], stream;
+} linear;
+static void linear_velocity(void *ctx, const double *x, double *v, double *rho)
+{
+    const linear *l = ctx;
+    double at_x[3] = {0}, w[3];
+    (void)rho;
+    memcpy(at_x, x, SPH_DIM * sizeof *x);
+    times_vector(l->a, at_x, w);
+    memcpy(v, w, SPH_DIM * sizeof *v);
+    v[0] += l->stream;
+}
+
+/* a jittered cloud of random densities, with the velocity A x, across a seam with a stream besides */
 static sph_sim *linear_cloud(const sph_config *c, uint32_t n, double a[3][3], double jitter, double drho)
 {
     sph_sim *sim = new_sim(c);
@@ -201,13 +219,14 @@ static sph_sim *linear_cloud(const sph_config *c, uint32_t n, double a[3][3], do
     for (int k = 0; k < SPH_DIM; k++)
         total *= n;
     for (uint32_t i = 0; i < total; i++) {
-        double x[3] = {0}, v[3];
+        double x[SPH_DIM];
         uint32_t rest = i;
         for (int k = 0; k < SPH_DIM; k++, rest /= n)
             x[k] = (rest % n + 0.5 + jitter * (2 * sph_rng_uniform(&rng) - 1)) * DX;
-        times_vector(a, x, v);
-        must(sim, sph_add_particle(sim, set, x, v, 1000 + drho * (2 * sph_rng_uniform(&rng) - 1), NULL));
+        must(sim, sph_add_particle(sim, set, x, NULL, 1000 + drho * (2 * sph_rng_uniform(&rng) - 1), NULL));
     }
+    linear l = {a, c->face[0][0] == SPH_PERIODIC ? 0.5 : 0};
+    must(sim, sph_apply_field(sim, set, linear_velocity, &l));
     must(sim, sph_ready(sim));
     return sim;
 }
