@@ -159,6 +159,7 @@ builds_test_time    := 1f 1d 2d
 builds_test_scenes  := $(BUILDS)
 builds_test_shapes  := $(BUILDS)
 builds_test_contact := $(BUILDS)
+builds_test_gradient := $(BUILDS)
 # of commands of the tool, linked with those that need no scene: one build
 TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile test_advise test_atlas
 $(foreach t,$(TOOL_TESTS),$(eval builds_$(t) := 2d))

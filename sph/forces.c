@@ -55,7 +55,7 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
         for (int k = 0; k < SPH_DIM; k++)
             p->kx[k] = v_where(~p->apart, to[k]);
     }
-    if (!sph_within(k2, o->f->reach2))
+    if (!sph_within(k2, o->f->reach2) || (SPH_HAS_FLUID_GRADIENT && o->c->gradient && sph_all_beyond(k2, o->f->reach2)))
         return false;
     p->q = v_sqrt(k2) * o->f->inv_h;
     SPH_UNROLL

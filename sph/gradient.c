@@ -26,14 +26,22 @@ void sph_load_gradient(const sph_candidates *r, sph_real *to, uint32_t row)
     }
 }
 
-/* the tile's part of -M; own: whether in the weak scheme */
+typedef struct gradient_scene {
+    bool weak;
+    sph_real reach2;
+} gradient_scene;
+
+/* the tile's part of -M */
 SPH_INLINE void gradient_pair(const void *what, uint32_t j, vreal *s)
 {
     const sph_gather *g = what;
+    const gradient_scene *const own = g->own;
     vreal dx[SPH_DIM];
     sph_gather_distance(g, j, dx);
+    if (sph_all_beyond(sph_dot(dx, dx), own->reach2))
+        return;
     vreal mg = sph_gather_slope(g, dx) * v_load(g->tile->m + j);
-    if (*(const bool *)g->own)
+    if (own->weak)
         mg = mg * v_load(g->tile->inv_rho + j);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
@@ -43,13 +51,12 @@ SPH_INLINE void gradient_pair(const void *what, uint32_t j, vreal *s)
 }
 static void gradient_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    static const bool standard = false;
-    const bool weak = sph_weak_scheme(sim->cfg.scheme);
+    const gradient_scene own = {sph_weak_scheme(sim->cfg.scheme), sim->fac.reach2}, standard = {false, own.reach2};
     const sph_tile *const tile = sph_tile_of(t, role);
-    if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && !weak)
+    if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && !own.weak)
         sph_gather_by(SPH_WENDLAND_C2, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &standard);
     else
-        sph_gather_by(sim->cfg.kernel, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &weak);
+        sph_gather_by(sim->cfg.kernel, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &own);
 }
 
 /* the least determinant of E that is inverted */
@@ -64,8 +71,9 @@ static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     const bool weak = sph_weak_scheme(sim->cfg.scheme), bonet = SPH_IS(sim->cfg.gradient, BONET_LOK);
     const sph_real inv_rho = 1 / t->home.rho[h], scale = weak ? 1 : inv_rho, back = bonet ? scale : 1;
     sph_real e[SPH_DIM][SPH_DIM], inv[SPH_DIM][SPH_DIM];
-    for (int k = 0; k < SPH_NL; k++)
-        e[k / SPH_DIM][k % SPH_DIM] = -v_fold(t->sum[sph_sym[k / SPH_DIM][k % SPH_DIM]][h]) * sim->fac.slope * scale;
+    for (int k = 0; k < SPH_DIM; k++)
+        for (int l = k; l < SPH_DIM; l++)
+            e[k][l] = e[l][k] = -v_fold(t->sum[sph_sym[k][l]][h]) * sim->fac.slope * scale;
     const bool fine = sph_invert((const sph_real(*)[SPH_DIM])e, inv, least_of());
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = k; l < SPH_DIM; l++)

@@ -8,25 +8,31 @@
                           (Wickramarachchi 2009 eqs 4.8-4.20, with the sign of his 3.77): keeps momentum and energy, but
                           not angular momentum, and is exact for linear fields only where B_i = B_j
 
-   A ghost has T = p/rho^2 I; with it K = B_i x_ij. Diffusion and Morris's viscosity keep the plain gradient. */
+   A ghost has T = p/rho^2 I; with it K = B_i x_ij of the body. Where a ghost is the home (its density goes by
+   continuity) it has the plain gradient after Bonet & Lok, and the body's B renormalised, so that the pair's two works
+   are of one K. Diffusion and Morris's viscosity keep the plain gradient. */
 #ifndef SPH_GRADIENT_H
 #define SPH_GRADIENT_H
 
 #include "term.h"
 
-/* what a home brings: N_i or B_i, and T_i */
+/* what a home brings: N_i or B_i, and T_i; renormalised: the share of B_i + B_j that is taken, where a ghost has 0 */
 typedef struct sph_gradient_home {
-    vreal n[SPH_NT], t[SPH_NT];
+    vreal n[SPH_NT], t[SPH_NT], share;
 } sph_gradient_home;
 
 SPH_INLINE sph_gradient_home sph_spread_gradient(const sph_sim *sim, const sph_thread *t, uint32_t h)
 {
     const sph_real *const own = sph_home_columns_of(sim, t, SPH_COLUMN_gradient);
+    const sph_config *const c = &sim->cfg;
     sph_gradient_home o;
+    const bool ghost = SPH_WITH_WALL_GHOST && !sph_is_body(&sim->set[t->home_set[h]]); /* has no place in the array */
+    const sph_real plain = !SPH_IS(c->gradient, BONET_LOK) ? 0 : sph_weak_scheme(c->scheme) ? 1 : 1 / t->home.rho[h];
+    o.share = v_set(ghost ? 1 : (sph_real)0.5);
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_NT; k++) {
-        o.n[k] = v_set(sim->gradient[k][t->home_at[h]]);
-        o.t[k] = v_set(own[k * SPH_HOME_ROOM + h]);
+        o.n[k] = v_set(!ghost ? sim->gradient[k][t->home_at[h]] : k < SPH_DIM ? plain : 0);
+        o.t[k] = v_set(ghost ? 0 : own[k * SPH_HOME_ROOM + h]);
     }
     return o;
 }
@@ -43,6 +49,13 @@ SPH_INLINE void sph_symmetric_times(const vreal *t, const vreal *x, vreal *y)
     }
 }
 
+/* Whether no pair of a group is in reach: all terms are 0 there. In 3-D, where seven groups of ten are beyond, a branch
+   takes 37 % off the instructions of a step and 28 % off its time; in 2-D 10 % off those and nothing off this. */
+SPH_INLINE bool sph_all_beyond(vreal r2, sph_real reach2)
+{
+    return SPH_DIM == 3 && !v_any(v_less(r2, v_set(reach2)));
+}
+
 /* what continuity and forces take for x_ij; `row`: the candidates' T or B */
 SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_home *h, const sph_real *row, sph_near *p)
 {
@@ -55,7 +68,7 @@ SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_h
         return;
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_NT; k++)
-        b[k] = p->wall ? h->n[k] : (h->n[k] + v_load(row + k * SPH_TILE_ROOM + p->j)) * (sph_real)0.5;
+        b[k] = p->wall ? h->n[k] : (h->n[k] + v_load(row + k * SPH_TILE_ROOM + p->j)) * h->share;
     sph_symmetric_times(b, p->dx, p->ex);
     p->vc = p->ve = sph_dot(p->dv, p->ex);
 }

@@ -131,6 +131,17 @@ SPH_INLINE vint v_equal(vreal a, vreal b) { return -(vint)!(a < b || b < a); }
 SPH_INLINE vreal v_select(vint m, vreal a, vreal b) { return m ? a : b; }
 #endif
 
+/* whether a mask holds in any lane */
+SPH_INLINE bool v_any(vint m)
+{
+    uint64_t w[(sizeof m + 7) / 8] = {0}, any = 0;
+    memcpy(w, &m, sizeof m);
+    SPH_UNROLL
+    for (uint32_t k = 0; k < sizeof w / sizeof *w; k++)
+        any |= w[k];
+    return any != 0;
+}
+
 #define SPH_NV (SPH_LANES / SPH_W) /* vectors that make up the eight lanes */
 
 SPH_INLINE vreal v_load(const sph_real *p)

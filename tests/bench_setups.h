@@ -55,7 +55,8 @@ static sph_config tank_config(uint32_t n, double *hi, double *top)
     return c;
 }
 
-static tank fill(uint32_t n, port_posix *pool, sph_stage_log log, void *log_ctx)
+/* change: what is to be another than usual; null: nothing */
+static tank fill_as(uint32_t n, port_posix *pool, sph_stage_log log, void *log_ctx, void (*change)(sph_config *c))
 {
     double lo[SPH_DIM] = {0}, hi[SPH_DIM], top[SPH_DIM];
     sph_config c = tank_config(n, hi, top);
@@ -67,6 +68,8 @@ static tank fill(uint32_t n, port_posix *pool, sph_stage_log log, void *log_ctx)
     }
     c.stage_log = log;
     c.stage_ctx = log_ctx;
+    if (change)
+        change(&c);
     t.bytes = sph_arena_bytes(&c);
     t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
     check(NULL, t.arena ? sph_init(&t.sim, &c, t.arena, t.bytes, NULL) : SPH_ARENA_TOO_SMALL, "init");
@@ -79,6 +82,11 @@ static tank fill(uint32_t n, port_posix *pool, sph_stage_log log, void *log_ctx)
     check(t.sim, sph_ready(t.sim), "ready");
     t.particles = sph_count(t.sim);
     return t;
+}
+
+static inline tank fill(uint32_t n, port_posix *pool, sph_stage_log log, void *log_ctx)
+{
+    return fill_as(n, pool, log, log_ctx, NULL);
 }
 
 /* a free block, slightly jittered and moving: water (form SPH_NO_SOLID) or a solid in tension here and there */

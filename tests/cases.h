@@ -17,6 +17,7 @@ typedef struct bits_case {
     bool xsph, shepard, books, moving, gate, body, floor, slip_less, compressible, damped, fixed_dt;
     uint32_t solid, yield, damage, repel; /* damage: none in 1-D */
     bool hat, held, beside;               /* strain rates smoothed; one end held and pulled; a gas beside the rock */
+    uint32_t gradient;
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -100,6 +101,18 @@ static const bits_case bits_cases[] = {
     {"solid_symmetry", CASE_SOLID, .solid = SPH_UPDATED, .face = SPH_SYMMETRY, .repel = SPH_COMPONENTS},
     {"solid_beside_gas", CASE_SOLID, .solid = SPH_UPDATED, .beside = true, .repel = SPH_PRINCIPAL},
     {"solid_in_tank", CASE_BASE, .solid = SPH_CORRECTED, .beside = true},
+    {"bonet_lok", CASE_BASE, .gradient = SPH_BONET_LOK},
+    {"bonet_lok_weak", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST,
+     .gradient = SPH_BONET_LOK, .scheme = SPH_WEAK, .compressible = true, .books = true, .moving = true},
+    {"bonet_lok_kick_drift_kick", CASE_BASE, .gradient = SPH_BONET_LOK, .integrator = SPH_KICK_DRIFT_KICK,
+     .diffusion = SPH_HYDROSTATIC, .floor = true, .books = true},
+    {"bonet_lok_periodic", CASE_BASE, .gradient = SPH_BONET_LOK, .face = SPH_PERIODIC},
+    {"bonet_lok_symmetry", CASE_BASE, .gradient = SPH_BONET_LOK, .face = SPH_SYMMETRY},
+    {"renormalised", CASE_BASE, .gradient = SPH_RENORMALISED},
+    {"renormalised_weak", .kernel = SPH_QUINTIC, .viscosity = SPH_MORRIS, .wall = SPH_WALL_ADAMI,
+     .gradient = SPH_RENORMALISED, .scheme = SPH_WEAK, .slip_less = true},
+    {"renormalised_symmetry", CASE_BASE, .gradient = SPH_RENORMALISED, .face = SPH_SYMMETRY,
+     .integrator = SPH_RUNGE_KUTTA},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -139,6 +152,7 @@ static sph_config case_config(const bits_case *b)
     c.alpha = 0.05;
     c.beta = 0.1;
     c.diffusion = b->diffusion;
+    c.gradient = b->gradient;
     c.integrator = b->integrator;
     c.xsph = b->xsph ? 0.5 : 0;
     c.shepard_every = b->shepard ? 3 : 0;

@@ -418,7 +418,7 @@ static void the_arena_report_adds_up(void **state)
 static void add_arrays(void *ctx, const char *name, size_t bytes)
 {
     static const char *const fixed_size[] = {"header", "sets", "wall groups", "thread scratch",
-        "thread scratch of solids", "materials", "cell starts", "slab starts", "flaws",
+        "thread scratch of columns", "materials", "cell starts", "slab starts", "flaws",
                                              "partial sums for the books"};
     for (size_t k = 0; k < sizeof fixed_size / sizeof *fixed_size; k++)
         if (strcmp(name, fixed_size[k]) == 0)
