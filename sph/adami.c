@@ -60,7 +60,7 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
         b->acc[k][i] = (sph_real)(wet ? 2 * v - (double)v_fold(t->sum[SUM_UW + k][h]) / w : v);
     }
     p = wet ? p / w : 0;
-    double d = wet ? sph_density_of(set, sim->cfg.pressure_floor && p < 0 ? 0 : p) : 0;
+    double d = wet ? sph_density_of(sim, set, sim->cfg.pressure_floor && p < 0 ? 0 : p) : 0;
     /* a wall that would be denser than any water can be: the fluid has collapsed onto it */
     b->drho[0][i] = (sph_real)(d > 1 ? 1 : d < -0.5 ? -0.5 : d);
 }
