@@ -608,6 +608,11 @@ uint32_t sph_count(const sph_sim *sim); /* particles in the simulation, walls in
 sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges -----------------------------------------------------------------------*/
+/* Books kept in every scene, a line each: X(name, unit, scenes whose digest it is part of, what). Members of sph_totals,
+   the state, its digest and dumps follow from the list. `c`: the configuration. */
+#define SPH_BOOKS(X)                                                                                                  \
+    X(removed_mass, "kg", false, "left the domain or was removed")
+
 typedef struct sph_totals {
     uint32_t fluid, wall, solid; /* particles */
     double mass;                 /* kg, fluid and solid, as all that follows */
@@ -622,7 +627,8 @@ typedef struct sph_totals {
     double body_work;            /* J, done by the body force beside gravity (books) */
     double dissipated;           /* J, by viscosity (books) */
     double diffused;             /* J, taken from the internal energy by density diffusion (books) */
-    double removed_mass;         /* kg that left the domain or was removed */
+#define SPH_BOOK_MEMBER(name, unit, when, what) double name;
+    SPH_BOOKS(SPH_BOOK_MEMBER)
     double max_speed, min_density, max_density;
 } sph_totals;
 /* Sums over fluid and solid in double precision, in index order. */
