@@ -2,27 +2,33 @@
 /* atlas_sponge.c: how much of a wave comes back from a sponge layer (sph/sponge.c) at the end of a line of particles.
    Compiled for one dimension, double.
 
-   A packet or a pulse starts to the right, v = c (rho - rho0)/rho0 = u(x), in water between mirror faces or in a bar in
-   the total-Lagrangian form with free ends. u is so small that all is linear. The layer is `width` spacings at the high
-   face. When what its inner edge throws back is where it all began, and what its end throws back is not much further,
-   the energy of waves to the left, sum of m ((v + sigma/(rho0 c))/2)^2, is taken outside the layer, over what it was of
-   waves to the right. Theory: v_t = -p_x/rho - r s^2 v takes exp(-2/3 rate width/c) of the energy on the way in and out
-   where the layer is long against the wave. */
+   A wave starts to the right, v = c (rho - rho0)/rho0 = u(x), in water between mirror faces or in a bar in the
+   total-Lagrangian form with free ends. u is so small that all is linear: a packet, one swing without a mean (the slope
+   of a Gaussian), or a pulse of one sign. The layer is `width` spacings at the high face. When what its end throws back
+   is where it all began, the energy of waves to the left, sum of m ((v + sigma/(rho0 c))/2)^2, is taken outside the
+   layer, over what it was of waves to the right. Theory: v_t = -p_x/rho - r s^2 v leaves exp(-2/3 rate width/c) of the
+   energy on the way in and out where the layer is long against the wave. Waves that are long against it see a
+   resistance of rho r w/3 before the end: all comes back from a fixed end, and from a free one nothing where that is
+   rho c, at a rate of 3. A pulse of one sign is made of such waves. */
 #include "atlas.h"
 #include "box.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { BEGIN = 60, FREE = 160 }; /* middle of the wave, and length before the layer, spacings */
-#define DT 0.2
+enum { BEGIN = 130, FREE = 220 }; /* middle of the wave, and length before the layer, spacings */
+#define DT 0.4
 #define SMALL 1e-5
 
 static void set_wave(void *ctx, const double *x, double *v, double *rho)
 {
     const sponge_case *c = ctx;
-    const double d = x[0] - BEGIN, width = c->packet ? 12 : 5, k = c->packet ? 2 * 3.14159265358979323846 / 12 : 0;
-    v[0] = SMALL * exp(-d * d / (2 * width * width)) * cos(k * d);
+    const double d = x[0] - BEGIN, width = c->wave == SPONGE_PACKET ? 12 : 3, g = exp(-d * d / (2 * width * width));
+    v[0] = SMALL * g;
+    if (c->wave == SPONGE_PACKET)
+        v[0] *= cos(2 * 3.14159265358979323846 / 12 * d);
+    if (c->wave == SPONGE_SWING)
+        v[0] *= d / width;
     *rho = 1 + v[0];
 }
 
@@ -41,7 +47,7 @@ static void add_up(const sph_sim *sim, double *right, double *left)
 
 double sponge_reflected(const sponge_case *c)
 {
-    const uint32_t n = FREE + c->width, steps = (uint32_t)((2 * (FREE - BEGIN) + c->width) / DT + 0.5);
+    const uint32_t n = FREE + c->width, steps = (uint32_t)((2 * (FREE - BEGIN) + 2 * c->width) / DT + 0.5);
     sph_config g = box_config(n, SPH_WENDLAND_C2, 1.2, DT);
     g.integrator = SPH_KICK_DRIFT_KICK;
     g.face[0][0] = g.face[0][1] = c->medium == SPONGE_BAR ? SPH_OPEN : SPH_SYMMETRY;
@@ -72,20 +78,21 @@ double sponge_theory(const sponge_case *c) { return exp(-2 * c->rate / 3); }
 
 void atlas_sponge(FILE *f)
 {
-    static const char *const media[] = {"water", "bar"};
+    static const char *const media[] = {"water", "bar"}, *const waves[] = {"packet", "swing", "pulse"};
     static const uint32_t widths[] = {5, 10, 20, 40};
     static const double rates[] = {0, 1, 2, 3, 5, 8, 12, 20};
     atlas_head(f, "sponge", "energy that comes back from a sponge layer",
-               "one dimension, Wendland C2, h 1.2, kick-drift-kick; pulse: Gaussian, sigma 5 dx; packet: waves of 12 dx,\n"
-               "sigma 12 dx; width in spacings; rate: sponge_rate width/c; reflected, through: shares of the energy,\n"
-               "measured, and of what goes in, to the end and out again, exp(-2/3 rate)",
+               "one dimension, Wendland C2, h 1.2, kick-drift-kick; packet: waves of 12 dx in a Gaussian of sigma 12 dx;\n"
+               "swing: slope of a Gaussian, sigma 3 dx; pulse: that Gaussian; water ends at a mirror face, the bar free\n"
+               "width in spacings; rate: sponge_rate width/c; reflected, through: shares of the energy, measured, and of\n"
+               "what goes in, to the end and out again, exp(-2/3 rate)",
                "medium,wave,width,rate,reflected,through");
     for (uint32_t m = 0; m < 2; m++)
-        for (int packet = 0; packet < 2; packet++)
+        for (uint32_t wave = 0; wave < SPONGE_WAVES; wave++)
             for (size_t w = 0; w < sizeof widths / sizeof *widths; w++)
                 for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {
-                    const sponge_case c = {m, widths[w], packet, rates[r]};
-                    fprintf(f, "%s,%s,%u,%g,%.3g,%.3g\n", media[m], packet ? "packet" : "pulse", c.width, c.rate,
+                    const sponge_case c = {m, widths[w], wave, rates[r]};
+                    fprintf(f, "%s,%s,%u,%g,%.3g,%.3g\n", media[m], waves[wave], c.width, c.rate,
                             sponge_reflected(&c), sponge_theory(&c));
                     fflush(f);
                 }
