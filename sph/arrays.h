@@ -24,6 +24,7 @@
     ONE(flaw, float, c->max_flaws, sph_damages(c), "flaws") /* thresholds */                                          \
     /* viscous, wall, diffusion and body-force power of a particle */                                                 \
     MANY(power, sph_real, SPH_POWERS, SPH_ROOM(c), sph_keeps_books(c), "powers for the books")                        \
+    ONE(sponge, double, c->max_particles / SPH_LOCAL_CHUNK + 1, c->sponge_rate > 0, "absorbed energy of chunks")      \
     /* SPH_PARTIALS of each chunk */                                                                                  \
     ONE(partial, double, (size_t)SPH_PARTIALS * (c->max_particles / SPH_LOCAL_CHUNK + 1), sph_keeps_books(c),         \
         "partial sums for the books")

@@ -104,10 +104,12 @@ static const sph_member state_fields[] = {
     {"peak_speed", "m/s", M_REAL, 1, AT(sph_scalars, peaks.speed)},
     {"work", "J", M_DOUBLE, SPH_POWERS, AT(sph_scalars, work)}, /* viscous, wall, diffusion, body */
     {"power", "W", M_DOUBLE, SPH_POWERS, AT(sph_scalars, power)},
-    {"removed_mass", "kg", M_DOUBLE, 1, AT(sph_scalars, removed_mass)},
+#define BOOK_FIELD(name, unit, when, what) {#name, unit, M_DOUBLE, 1, AT(sph_scalars, name)},
+    SPH_BOOKS(BOOK_FIELD)
 };
+#define BOOK_COUNT(name, unit, when, what) +1
 /* a member of sph_scalars that no table names would be lost: adding one must change this number and a table */
-_Static_assert(sizeof(sph_scalars) == 8 * (4 + 2 * SPH_POWERS) + 4 * 5 + 4 + 3 * sizeof(sph_real) +
+_Static_assert(sizeof(sph_scalars) == 8 * (3 SPH_BOOKS(BOOK_COUNT) + 2 * SPH_POWERS) + 4 * 5 + 4 + 3 * sizeof(sph_real) +
                                           (SPH_DOUBLE ? 0u : 4u) + SPH_MAX_GROUPS * sizeof(sph_group_state) ||
                    sizeof(void *) < 8,
                "sph_scalars has changed: name the new member in state_fields");

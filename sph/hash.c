@@ -2,6 +2,14 @@
 /* hash.c: the digest of everything that the next step reads: the current state buffer, scalars, groups, books. */
 #include "internal.h"
 
+static uint64_t mix_books(uint64_t h, const sph_config *c, const sph_scalars *s)
+{
+    (void)c, (void)s;
+#define MIX_BOOK(name, unit, when, what) h = (when) ? sph_mix_double(h, s->name) : h;
+    SPH_BOOKS(MIX_BOOK)
+    return h;
+}
+
 uint64_t sph_hash(const sph_sim *sim)
 {
     if (!sim)
@@ -20,5 +28,5 @@ uint64_t sph_hash(const sph_sim *sim)
     }
     for (uint32_t k = 0; k < SPH_POWERS; k++)
         h = sph_mix_double(sph_mix_double(h, s->work[k]), s->power[k]);
-    return h;
+    return mix_books(h, &sim->cfg, s);
 }

@@ -162,13 +162,16 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
         MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),        \
         MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
 
+/* what a step ends with */
+#define END(pass) &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge)
+
 typedef const sph_pass *const list[];
 static list first_forces = {&pass_begin, SORT, DENSITIES, FORCES, &pass_prime};
-static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, &pass_correct};
-static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, &pass_kick};
-static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, &pass_velocity};
+static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, END(pass_correct)};
+static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_kick)};
+static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
-                           &pass_begin_second, SORT, DENSITIES, FORCES, &pass_advance};
+                           &pass_begin_second, SORT, DENSITIES, FORCES, END(pass_advance)};
 
 /* what the sorts do: drift, bend, kick, rate; damps, reflects, middle */
 static const sph_stage stays = {0, 0, 0, 0, false, true, false};

@@ -80,7 +80,7 @@ typedef struct sph_scalars {
     bool primed, started; /* first forces known; first step done (leap-frog) */
     sph_peaks peaks;
     double work[SPH_POWERS]; /* J, their integrals */
-    double removed_mass;     /* kg */
+    SPH_BOOKS(SPH_BOOK_MEMBER)
     double power[SPH_POWERS]; /* W, at the end of the latest step: viscous, wall, diffusion, body */
     sph_group_state group[SPH_MAX_GROUPS];
 } sph_scalars;

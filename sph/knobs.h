@@ -157,6 +157,9 @@
 #ifndef SPH_WITH_HELD
 #define SPH_WITH_HELD SPH_WITH_ALL
 #endif
+#ifndef SPH_WITH_SPONGE
+#define SPH_WITH_SPONGE SPH_WITH_ALL
+#endif
 #ifndef SPH_WITH_BODY_FORCE
 #define SPH_WITH_BODY_FORCE SPH_WITH_ALL
 #endif

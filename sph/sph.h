@@ -191,6 +191,13 @@ enum {
    mirrored twice. A particle never passes a mirror face: it is reflected and counted. */
 enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
 
+/* Sponge layers along faces that are not periodic, where waves die away: dv/dt = -sponge_rate S (v - sponge_velocity),
+   S = sum over faces of s^2, s = (width - distance to the face)/width within a layer, else 0 (Powell 2012 section 2.1).
+   Widths (m) are sponge_low and sponge_high of each axis, 0: none; the rate (1/s) is that at the face. Damps fluid and
+   solid, not walls nor axes that are held, exactly and once a step, at its end: velocities inside a layer stand half a
+   step of damping ahead. What it takes is `absorbed` in sph_totals, with or without books. SPH_ARENA_BYTES: or in
+   SPH_USE_BOOKS. Waves want layers of a wavelength or more, and rate width/c about 10 (tests/lab/atlas_sponge.csv). */
+
 /* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
    (any of the four; PUT_BACK sets it 0.1 spacings off the wall, without its velocity into the wall). */
 enum { SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE, SPH_POLICIES };
@@ -608,6 +615,12 @@ uint32_t sph_count(const sph_sim *sim); /* particles in the simulation, walls in
 sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges -----------------------------------------------------------------------*/
+/* Books kept in every scene, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
+   the state, its digest and dumps follow from the list. `c`: the configuration. */
+#define SPH_BOOKS(X)                                                                                                  \
+    X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
+    X(removed_mass, "kg", false, "left the domain or was removed")
+
 typedef struct sph_totals {
     uint32_t fluid, wall, solid; /* particles */
     double mass;                 /* kg, fluid and solid, as all that follows */
@@ -622,7 +635,8 @@ typedef struct sph_totals {
     double body_work;            /* J, done by the body force beside gravity (books) */
     double dissipated;           /* J, by viscosity (books) */
     double diffused;             /* J, taken from the internal energy by density diffusion (books) */
-    double removed_mass;         /* kg that left the domain or was removed */
+#define SPH_BOOK_MEMBER(name, unit, when, what) double name;
+    SPH_BOOKS(SPH_BOOK_MEMBER)
     double max_speed, min_density, max_density;
 } sph_totals;
 /* Sums over fluid and solid in double precision, in index order. */

@@ -60,6 +60,7 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
     out->wall_work = sim->now.work[1];
     out->diffused = sim->now.work[2];
     out->body_work = sim->now.work[3];
-    out->removed_mass = sim->now.removed_mass;
+#define BOOK_TOTAL(name, unit, when, what) out->name = sim->now.name;
+    SPH_BOOKS(BOOK_TOTAL)
 }
 #endif

@@ -9,6 +9,7 @@
 #include "sph/sph.h"
 
 enum { CASE_NO_WALL = SPH_WALLS };
+enum { SPONGE_NONE, SPONGE_LOW, SPONGE_HIGH, SPONGE_ALL }; /* layers at low faces, at high ones, at all */
 
 /* 0 means the default of sph_config_default throughout */
 typedef struct bits_case {
@@ -18,6 +19,7 @@ typedef struct bits_case {
     uint32_t solid, yield, damage, repel; /* damage: none in 1-D */
     bool hat, held, beside;               /* strain rates smoothed; one end held and pulled; a gas beside the rock */
     uint32_t gradient;
+    uint32_t sponge;                      /* SPONGE_... */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -113,6 +115,10 @@ static const bits_case bits_cases[] = {
      .gradient = SPH_RENORMALISED, .scheme = SPH_WEAK, .slip_less = true},
     {"renormalised_symmetry", CASE_BASE, .gradient = SPH_RENORMALISED, .face = SPH_SYMMETRY,
      .integrator = SPH_RUNGE_KUTTA},
+    {"sponge", CASE_BASE, .books = true, .sponge = SPONGE_ALL},
+    {"sponge_kick_drift_kick", CASE_BASE, .integrator = SPH_KICK_DRIFT_KICK, .face = SPH_SYMMETRY,
+     .sponge = SPONGE_LOW},
+    {"sponge_solid", CASE_SOLID, .solid = SPH_UPDATED, .sponge = SPONGE_HIGH},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -134,6 +140,18 @@ static __attribute__((unused)) void case_body(void *ctx, double t, const double 
     (void)ctx;
     for (int k = 0; k < SPH_DIM; k++)
         a[k] += sph_sin(x[k] + t) - 0.1 * v[k];
+}
+
+/* layers over a third of the water; the low ones leave a stream alone */
+static void case_sponge(sph_config *c, uint32_t sponge)
+{
+    const double water = CASE_N * CASE_DX / 3;
+    for (int k = 0; k < SPH_DIM && sponge; k++) {
+        c->sponge_low[k] = sponge != SPONGE_HIGH ? water - c->lo[k] : 0;
+        c->sponge_high[k] = sponge != SPONGE_LOW ? c->hi[k] - 2 * water : 0;
+        c->sponge_velocity[k] = sponge == SPONGE_LOW ? 0.25 : 0;
+    }
+    c->sponge_rate = sponge ? 100 : 0;
 }
 
 static sph_config case_config(const bits_case *b)
@@ -182,6 +200,7 @@ static sph_config case_config(const bits_case *b)
         if (SPH_DIM == 1)
             c.gravity[0] = 0;
     }
+    case_sponge(&c, b->sponge);
     c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
     return c;
 }

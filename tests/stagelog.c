@@ -134,7 +134,8 @@ static void after_pass(void *ctx, uint64_t step, const char *pass, uint64_t hash
     at->b = &at->sim->buf[at->sim->dst];
     at->count = at->sim->next.count;
     /* the last pass of a stage gives the particles their ids back */
-    at->indices = at->sim->pc + 1 < at->sim->passes && !same_text(pass, "settle");
+    at->indices = at->sim->pc + 1 < at->sim->passes && !same_text(pass, "settle") && !same_text(pass, "kick") &&
+                  !same_text(pass, "velocity") && !same_text(pass, "correct") && !same_text(pass, "advance");
     log_place(at);
 }
 

@@ -230,6 +230,28 @@ static void walls_leak_where_they_are_weak(void **state)
     assert_true(mirror.crossed == 0);
 }
 
+/* ---- waves that leave ---- */
+
+/* a layer of 20 spacings: of the right rate it takes a packet in, too weak or too thin it does not; without it all
+   comes back */
+static void sponges_take_packets_in_or_not(void **state)
+{
+    static const struct {
+        sponge_case c;
+        double least, most;
+    } list[] = {{{SPONGE_WATER, 20, SPONGE_PACKET, 12}, 0, 5e-4}, {{SPONGE_BAR, 20, SPONGE_PACKET, 12}, 0, 1e-3},
+                {{SPONGE_WATER, 20, SPONGE_SWING, 12}, 0, 0.01},  {{SPONGE_WATER, 20, SPONGE_PACKET, 1}, 0.3, 0.6},
+                {{SPONGE_WATER, 5, SPONGE_PACKET, 20}, 0.05, 1},  {{SPONGE_WATER, 20, SPONGE_PULSE, 12}, 0.1, 1},
+                {{SPONGE_WATER, 20, SPONGE_PACKET, 0}, 0.98, 1.01}};
+    (void)state;
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        const double r = sponge_reflected(&list[i].c);
+        print_message("atlas: sponge of %u spacings, rate %g, wave %u: %.2e of the energy comes back\n",
+                      list[i].c.width, list[i].c.rate, list[i].c.wave, r);
+        assert_true(r >= list[i].least && r <= list[i].most);
+    }
+}
+
 /* ---- float and double ---- */
 
 static void float_and_double_part_where_it_is_unstable(void **state)
@@ -258,6 +280,7 @@ int main(void)
         subject(water_in_tension_clumps),
         subject(walls_keep_a_tank_still_or_not),
         subject(walls_leak_where_they_are_weak),
+        subject(sponges_take_packets_in_or_not),
         subject(float_and_double_part_where_it_is_unstable),
     };
     return run_subjects("atlas", tests);

@@ -17,6 +17,7 @@ typedef struct atlas_table {
 void atlas_courant(FILE *f), atlas_swegle(FILE *f), atlas_tension(FILE *f), atlas_pairing(FILE *f),
     atlas_repulsion(FILE *f);
 void atlas_water(FILE *f), atlas_tank(FILE *f), atlas_leak(FILE *f), atlas_precision(FILE *f);
+void atlas_sponge(FILE *f);
 
 /* the header every table has; "" lines are left out */
 void atlas_head(FILE *f, const char *table, const char *title, const char *figures, const char *columns);
@@ -81,6 +82,16 @@ typedef struct wall_leak {
     bool failed;
 } wall_leak;
 wall_leak wall_throw(uint32_t choice, double strength, uint32_t layers, double speed, bool put_back);
+
+/* ---- waves that leave: see atlas_sponge.c ---- */
+enum { SPONGE_WATER, SPONGE_BAR };
+enum { SPONGE_PACKET, SPONGE_SWING, SPONGE_PULSE, SPONGE_WAVES };
+typedef struct sponge_case {
+    uint32_t medium, width, wave; /* width: spacings */
+    double rate;                  /* of the layer, times its width over c; 0: no layer */
+} sponge_case;
+double sponge_reflected(const sponge_case *c); /* energy that comes back over that which came */
+double sponge_theory(const sponge_case *c);    /* what goes through the layer and back */
 
 /* ---- float and double: see atlas_precision.c ---- */
 enum { PAIR_TANK, PAIR_DAM, PAIR_VORTEX, PAIR_BLOCK, PAIR_TENSION, PAIR_SCENES };
