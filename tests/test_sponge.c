@@ -267,7 +267,9 @@ static void walls_are_not_damped(void **state)
         }
         c.sponge_low[0] = turn ? 1 : 0;
         c.sponge_rate = 1000;
+        c.viscosity = SPH_ARTIFICIAL;
         w.kind = SPH_WALL_ADAMI;
+        w.no_slip = true;
         w.motion = moving;
         sph_sim *sim = new_sim(&c);
         must(sim, sph_add_fluid(sim, NULL, &set));
