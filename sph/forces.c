@@ -136,11 +136,11 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
     at_home o = {.c = c, .f = f, .tile = wall ? &t->ghosts : &t->bodies, .home = &home};
     if (SPH_HAS_LAYERED_WALLS && wall)
         o.mirror = sph_mirror_of(sim, t);
-    sph_gradient_home gradient;
+    sph_gradient_home gradient = {{v_set(0)}, {v_set(0)}, v_set(0)};
+    o.gradient = &gradient;
     if (SPH_HAS_FLUID_GRADIENT && c->gradient) {
         o.corrected = sph_columns_of(sim, t, SPH_COLUMN_gradient);
         gradient = sph_spread_gradient(sim, t, h);
-        o.gradient = &gradient;
     }
     sph_stress_home solid;
     if (SPH_WITH_SOLID && c->solid) {

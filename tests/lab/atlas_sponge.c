@@ -82,10 +82,10 @@ void atlas_sponge(FILE *f)
     static const uint32_t widths[] = {5, 10, 20, 40};
     static const double rates[] = {0, 1, 2, 3, 5, 8, 12, 20};
     atlas_head(f, "sponge", "energy that comes back from a sponge layer",
-               "one dimension, Wendland C2, h 1.2, kick-drift-kick; packet: waves of 12 dx in a Gaussian of sigma 12 dx;\n"
-               "swing: slope of a Gaussian, sigma 3 dx; pulse: that Gaussian; water ends at a mirror face, the bar free\n"
-               "width in spacings; rate: sponge_rate width/c; reflected, through: shares of the energy, measured, and of\n"
-               "what goes in, to the end and out again, exp(-2/3 rate)",
+               "one dimension, Wendland C2, h 1.2, kick-drift-kick; packet: waves of 12 dx in a Gaussian of\n"
+               "sigma 12 dx; swing: slope of a Gaussian, sigma 3 dx; pulse: that Gaussian; water ends at a mirror,\n"
+               "the bar free; width in spacings; rate: sponge_rate width/c; reflected, through: shares of the energy,\n"
+               "measured, and of what goes in, to the end and out again, exp(-2/3 rate)",
                "medium,wave,width,rate,reflected,through");
     for (uint32_t m = 0; m < 2; m++)
         for (uint32_t wave = 0; wave < SPONGE_WAVES; wave++)
