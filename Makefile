@@ -214,7 +214,7 @@ test_bins += $(LISTS_BUILDS:%=$(BUILD)/tests/test_lists_%)
 # `make test` is one shell script so that cmocka is there before anything is compiled with it
 test:
 	$(Q)CC="$(CC)" sh tests/need_cmocka.sh
-	$(Q)$(MAKE) --no-print-directory tests
+	$(Q)$(MAKE) --no-print-directory tests CFLAGS="$(CFLAGS) -DSPH_ASSERTS=1"
 	$(Q)EXEC="$(EXEC)" sh tests/run.sh $(BUILD) $(test_bins)
 	$(Q)sh tests/entries.sh
 	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/bits.sh --quick
@@ -294,9 +294,10 @@ fuzz-replay:
 
 # ---- sanitizers: the tests under them ----
 
-asan_flags := -fsanitize=address,undefined
-tsan_flags := -fsanitize=thread
-msan_flags := -fsanitize=memory -fsanitize-memory-track-origins
+# with what must hold inside (sph/checks.h): heavy under the first, where CI looks
+asan_flags := -fsanitize=address,undefined -DSPH_VALIDATES=1
+tsan_flags := -fsanitize=thread -DSPH_ASSERTS=1
+msan_flags := -fsanitize=memory -DSPH_ASSERTS=1 -fsanitize-memory-track-origins
 sanitized = $(MAKE) --no-print-directory $(1) BUILD=$(BUILD)/$(2) CC="$(CLANG)" WARN="-Wall -Wno-pass-failed" \
 	OPT="-O1 -g -fno-omit-frame-pointer" CFLAGS="$($(2)_flags) -fno-sanitize-recover=all" LDFLAGS="$($(2)_flags)"
 TSAN_TESTS ?= $(BUILD)/tsan/tests/test_threads_1d $(BUILD)/tsan/tests/test_threads_2f $(BUILD)/tsan/tests/test_threads_3f

@@ -47,8 +47,8 @@ SPH_INLINE void correction_pair(const void *what, uint32_t j, vreal *s)
         s[SUM_FAR] = v_max(s[SUM_FAR], v_where(same & v_less(q, c->reach), sph_dot(dx, dx)));
 }
 
-SPH_INLINE void correction_homes(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t kernel, bool weak, bool total,
-                                 bool wall)
+SPH_INLINE void correction_homes(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t kernel, bool weak,
+                                 bool total, bool wall)
 {
     const uint32_t sums = SPH_SUM_MASK(SUM_M, SPH_NL) | (total ? 1u << SUM_FAR : 0);
     const sph_tile *const tile = wall ? &t->ghosts : &t->bodies;

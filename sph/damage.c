@@ -37,7 +37,10 @@ static sph_real largest_in_space(const sph_real *s)
     }
     return most;
 }
-static sph_real largest_principal(const sph_real *s) { return SPH_DIM == 2 ? largest_in_plane(s) : largest_in_space(s); }
+static sph_real largest_principal(const sph_real *s)
+{
+    return SPH_DIM == 2 ? largest_in_plane(s) : largest_in_space(s);
+}
 
 /* strain that flaws compare themselves with */
 static sph_real flaw_strain(const sph_sim *sim, const sph_set *set, const sph_buffer *b, uint32_t i, sph_real whole)

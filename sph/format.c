@@ -109,8 +109,9 @@ static const sph_member state_fields[] = {
 };
 #define BOOK_COUNT(name, unit, when, what) +1
 /* a member of sph_scalars that no table names would be lost: adding one must change this number and a table */
-_Static_assert(sizeof(sph_scalars) == 8 * (3 SPH_BOOKS(BOOK_COUNT) + 2 * SPH_POWERS) + 4 * 5 + 4 + 3 * sizeof(sph_real) +
-                                          (SPH_DOUBLE ? 0u : 4u) + SPH_MAX_GROUPS * sizeof(sph_group_state) ||
+_Static_assert(sizeof(sph_scalars) == 8 * (3 SPH_BOOKS(BOOK_COUNT) + 2 * SPH_POWERS) + 4 * 5 + 4 +
+                                          3 * sizeof(sph_real) + (SPH_DOUBLE ? 0u : 4u) +
+                                          SPH_MAX_GROUPS * sizeof(sph_group_state) ||
                    sizeof(void *) < 8,
                "sph_scalars has changed: name the new member in state_fields");
 

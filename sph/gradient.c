@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* gradient.c: corrected gradients of fluids (gradient.h): the sum M, its inverse, and what a particle brings to a tile.
+/* gradient.c: corrected gradients of fluids (gradient.h): the sum M, its inverse, and what a particle brings to a
+   tile.
 
-   Array: N (Bonet & Lok) or B (renormalised), symmetric, SPH_DIM (SPH_DIM + 1)/2 reals. Cost: a sweep before the forces.
-   Where the neighbours do not span space the plain gradient is taken: where E = M/rho is nearly singular, or smaller than six
-   tenths of what a particle in the corner of a block has, 2^-SPH_DIM on every axis (lone particles, pairs, drops). */
+   Array: N (Bonet & Lok) or B (renormalised), symmetric, SPH_DIM (SPH_DIM + 1)/2 reals. Cost: a sweep before the
+   forces. Where the neighbours do not span space the plain gradient is taken: where E = M/rho is nearly singular, or
+   smaller than six tenths of what a particle in the corner of a block has, 2^-SPH_DIM on every axis (lone particles,
+   pairs, drops). */
 #include "gradient.h"
 
 #if SPH_HAS_FLUID_GRADIENT

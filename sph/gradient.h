@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* gradient.h: corrected gradients of fluids, in the force loop; gradient.c makes them. With M = -sum m_j x_ij (x) x_ij g and
-   N = M^-1 (weak scheme: with m_j/rho_j for m_j, and without the rho of the next lines):
+/* gradient.h: corrected gradients of fluids, in the force loop; gradient.c makes them. With M = -sum m_j x_ij (x)
+   x_ij g and N = M^-1 (weak scheme: with m_j/rho_j for m_j, and without the rho of the next lines):
 
      Bonet & Lok 1999     drho_i = rho_i sum m_j v_ij . N_i x_ij g          exact where the velocity is linear
-                          a_i -= m_j (T_i + T_j) x_ij g,  T = p N/rho       does the same work; keeps momentum and angular momentum
-     renormalised         K = (B_i + B_j)/2 x_ij in place of x_ij in continuity, pressure and artificial viscosity, B = rho N
+                          a_i -= m_j (T_i + T_j) x_ij g,  T = p N/rho     does the same work; keeps momentum, angular too
+     renormalised         K = (B_i + B_j)/2 x_ij for x_ij in continuity, pressure and artificial viscosity, B = rho N
                           (Wickramarachchi 2009 eqs 4.8-4.20, with the sign of his 3.77): keeps momentum and energy, but
                           not angular momentum, and is exact for linear fields only where B_i = B_j
 
    A ghost has T = p/rho^2 I; with it K = B_i x_ij of the body. Where a ghost is the home (its density goes by
-   continuity) it has the plain gradient after Bonet & Lok, and the body's B renormalised, so that the pair's two works
-   are of one K. Diffusion and Morris's viscosity keep the plain gradient. */
+   continuity) it has the plain gradient after Bonet & Lok, and the body's B renormalised, so that the pair's two
+   works are of one K. Diffusion and Morris's viscosity keep the plain gradient. */
 #ifndef SPH_GRADIENT_H
 #define SPH_GRADIENT_H
 
@@ -57,7 +57,8 @@ SPH_INLINE bool sph_all_beyond(vreal r2, sph_real reach2)
 }
 
 /* what continuity and forces take for x_ij; `row`: the candidates' T or B */
-SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_home *h, const sph_real *row, sph_near *p)
+SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_home *h, const sph_real *row,
+                                       sph_near *p)
 {
     vreal b[SPH_NT], nx[SPH_DIM];
     if (SPH_IS(c->gradient, BONET_LOK)) {
@@ -74,8 +75,8 @@ SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_h
 }
 
 /* the force of the pressure after Bonet & Lok */
-SPH_INLINE void sph_corrected_pressure(const sph_choice *c, const sph_home *o, const sph_gradient_home *h, const sph_real *row,
-                                       const sph_near *p, vreal *s)
+SPH_INLINE void sph_corrected_pressure(const sph_choice *c, const sph_home *o, const sph_gradient_home *h,
+                                       const sph_real *row, const sph_near *p, vreal *s)
 {
     if (!SPH_IS(c->gradient, BONET_LOK))
         return;

@@ -2,7 +2,7 @@
 /* stress.c: the stress of solids: what a particle brings to a tile (T, and R on tension), and the rates of the
    deviatoric stress from the velocity gradient L. The pair formulas are in stress.h.
 
-     rates      dS/dt = 2 mu (e - tr e/3) + W S - S W,  e = (L + L^T)/2, W = (L - L^T)/2 (Jaumann; Gray 2001 eqs 5.7-5.9)
+     rates      dS/dt = 2 mu (e - tr e/3) + W S - S W,  e = (L + L^T)/2, W = (L - L^T)/2 (Jaumann; Gray 2001 5.7-5.9)
 
    Arrays: stress and dstress (1, 3 or 5 reals each, in every state buffer). Cost: the sums of the force sweep. */
 #include "stress.h"

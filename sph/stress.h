@@ -68,8 +68,8 @@ SPH_INLINE vreal sph_small_power(vreal f, uint32_t n)
 }
 
 /* T_i + T_j + (R_i + R_j) f^n, component k, l; a wall's is its pressure */
-SPH_INLINE vreal sph_stress_sum(const sph_choice *c, const sph_stress_home *h, const sph_stress_tile *t, const sph_near *p,
-                                int k, int l, vreal fn)
+SPH_INLINE vreal sph_stress_sum(const sph_choice *c, const sph_stress_home *h, const sph_stress_tile *t,
+                                const sph_near *p, int k, int l, vreal fn)
 {
     vreal sum = h->t[k * SPH_DIM + l];
     if (!p->wall)

@@ -92,8 +92,8 @@ void sph_clear_threads(sph_sim *sim);
 #define sph_gather_threads SPH_NAME(gather_threads_)
 sph_fail sph_gather_threads(sph_sim *sim);
 
-/* validate.c: what SPH_VALIDATE asks: buffer dst in order of cells and ids, each particle of src at most once, all inside the
-   domain; the columns of a tile finite, with mass */
+/* validate.c: what SPH_VALIDATE asks: buffer dst in order of cells and ids, each particle of src at most once, all
+   inside the domain; the columns of a tile finite, with mass */
 #define sph_is_sorted SPH_NAME(is_sorted_)
 bool sph_is_sorted(const sph_sim *sim);
 #define sph_is_tile_sound SPH_NAME(is_tile_sound_)

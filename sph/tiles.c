@@ -95,7 +95,8 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, bool inv_rho, bool home
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST;
     const bool floor = c->pressure_floor && !sph_is_solid(r->set);
     const uint32_t copied = homes ? COPIED_HOMES : COPIED;
-    const bool usual = SPH_WITH_FAST_PATHS && !r->im->is_image && SPH_IS(r->set->eos, TAIT) && SPH_IS(c->scheme, STANDARD);
+    const bool water = SPH_IS(r->set->eos, TAIT) && SPH_IS(c->scheme, STANDARD);
+    const bool usual = SPH_WITH_FAST_PATHS && water && !r->im->is_image;
     (void)copied;
 #define SPH_FAST_TRY(name, floor_, inv_rho_, wall_, copied_)                                                       \
     if (usual && floor == (floor_) && inv_rho == (inv_rho_) && wall == (wall_) && copied == (copied_)) {           \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* validate.c: what SPH_VALIDATE asks after a sort and before a tile is worked off (checks.h). No array: ids are marked in the
-   scratch of thread 0, as many at a time as it has bits. */
+/* validate.c: what SPH_VALIDATE asks after a sort and before a tile is worked off (checks.h). No array: ids are
+   marked in the scratch of thread 0, as many at a time as it has bits. */
 #include "sweep.h"
 
 /* every index of the source buffer stands at most once in buffer dst */
