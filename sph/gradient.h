@@ -3,7 +3,7 @@
    x_ij g and N = M^-1 (weak scheme: with m_j/rho_j for m_j, and without the rho of the next lines):
 
      Bonet & Lok 1999     drho_i = rho_i sum m_j v_ij . N_i x_ij g          exact where the velocity is linear
-                          a_i -= m_j (T_i + T_j) x_ij g,  T = p N/rho     does the same work; keeps momentum, angular too
+                          a_i -= m_j (T_i + T_j) x_ij g,  T = p N/rho     does the same work; keeps both momenta
      renormalised         K = (B_i + B_j)/2 x_ij for x_ij in continuity, pressure and artificial viscosity, B = rho N
                           (Wickramarachchi 2009 eqs 4.8-4.20, with the sign of his 3.77): keeps momentum and energy, but
                           not angular momentum, and is exact for linear fields only where B_i = B_j
