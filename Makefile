@@ -196,12 +196,13 @@ endef
 $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(eval $(call test_rule,$(t),$(b)))))
 $(foreach b,$(BUILDS),$(BUILD)/obj/$(b)/tests/test_dmath.o): HOST_CFLAGS += -Itests/refdata
 
-# the kernel once more, with a state field of every way (tests/extra_fields.h)
+# the kernel once more, with a state field of every way (tests/extra_fields.h) and a column set (tests/lists_columns.h)
 define lists_rules
-$(BUILD)/obj/lists_$(1)/%.o: %.c tests/extra_fields.h
+$(BUILD)/obj/lists_$(1)/%.o: %.c tests/extra_fields.h tests/lists_columns.h
 	$$(say) cc "$$< (lists, $(1))"
 	@mkdir -p $$(@D)
-	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(HOST_CFLAGS) $(call defines,$(1)) -include tests/extra_fields.h -MMD -MP -c $$< -o $$@
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(HOST_CFLAGS) $(call defines,$(1)) -include tests/extra_fields.h \
+		-include tests/lists_columns.h -MMD -MP -c $$< -o $$@
 $(BUILD)/tests/test_lists_$(1): $(BUILD)/obj/lists_$(1)/tests/test_lists.o $(KERNEL:%.c=$(BUILD)/obj/lists_$(1)/%.o)
 	$$(say) link $$@
 	@mkdir -p $$(@D)

@@ -17,6 +17,7 @@
     O(A, sponge_velocity, VECTOR, 0, -1e14f, 1e14f, SPH_WITH_SPONGE, "-1e14 .. 1e14", FIXED, "m/s",                   \
       "velocity that the layers leave alone")
 
+#ifdef SPH_H /* the tool reads the list of options without the kernel */
 struct sph_config;
 struct sph_pass;
 
@@ -26,5 +27,6 @@ sph_status sph_check_sponge(const struct sph_config *c, sph_report *r);
 
 #define sph_pass_sponge SPH_NAME(pass_sponge_)
 extern const struct sph_pass sph_pass_sponge;
+#endif
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_lists.c: a state field is a line of a list. The kernel is compiled once more with the fields of extra_fields.h,
-   and they do what the list says of them, in every integrator: nothing else in the kernel names them. */
+/* test_lists.c: a state field is a line of a list. The kernel is compiled once more with the fields of extra_fields.h
+   and the column set of lists_columns.h, and they do what the list says of them, in every integrator: nothing else in the kernel names them. */
 #include "testing.h"
 
-#include "sph/internal.h"
+#include "sph/sweep.h"
 #include "state.h"
 
 #define N (SPH_DIM == 3 ? 8 : 10)
@@ -338,6 +338,59 @@ static void the_arena_names_every_field(void **state)
     assert_true(sph_arena_bytes(&c) <= sim->arena_bytes);
 }
 
+/* ---- a column: place and velocity along x once more, through the list of column sets ---- */
+
+void SPH_NAME(load_spare_)(const sph_candidates *r, sph_real *to, uint32_t row);
+void SPH_NAME(load_spare_)(const sph_candidates *r, sph_real *to, uint32_t row)
+{
+    for (uint32_t j = 0; j < r->n; j += SPH_W) {
+        v_store(to + j, sph_seen_place(r, 0, v_load_int(r->b->pos[0] + r->first + j)));
+        v_store(to + row + j, sph_seen_vector(r, 0, v_load(r->b->vel[0] + r->first + j)));
+    }
+}
+
+static struct {
+    uint32_t candidates, homes;
+} seen;
+
+static bool any_home(const sph_sim *sim, const sph_set *set)
+{
+    (void)sim, (void)set;
+    return true;
+}
+static void look_at_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    const sph_real *own = sph_columns_of(sim, t, SPH_COLUMN_spare), *home = sph_home_columns_of(sim, t, SPH_COLUMN_spare);
+    assert_int_equal(role, SPH_ROLE_FLUID);
+    for (uint32_t j = 0; j < t->bodies.n + SPH_LANES; j++) {
+        const bool is = j < t->bodies.n; /* behind the last there is nothing, and that is finite */
+        close_to((double)own[j], is ? (double)t->bodies.x[0][j] : 0, 0);
+        close_to((double)own[SPH_TILE_ROOM + j], is ? (double)t->bodies.v[0][j] : 0, 0);
+    }
+    for (uint32_t h = 0; h < homes; h++) {
+        close_to((double)home[h], (double)t->home.x[0][h], 0);
+        close_to((double)home[SPH_HOME_ROOM + h], (double)t->home.v[0][h], 0);
+    }
+    seen.candidates += t->bodies.n;
+}
+static void count_home(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    (void)sim, (void)t, (void)h;
+    seen.homes++;
+}
+
+static void a_column_set_is_a_line_and_its_loader(void **state)
+{
+    (void)state;
+    sph_sim *sim = run_block(SPH_PREDICTOR_CORRECTOR, 1e-3, 20);
+    const sph_sweep w = {any_home, SPH_BODIES, 1, false, 1u << SPH_COLUMN_spare, look_at_tile, count_home};
+    memset(&seen, 0, sizeof seen);
+    for (uint32_t chunk = 0; chunk < sph_sweep_chunks(sim); chunk++)
+        sph_sweep_chunk(sim, &w, chunk, sim->thread);
+    assert_int_equal(seen.homes, sim->now.count);
+    assert_true(seen.candidates > sim->now.count);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -351,6 +404,7 @@ int main(void)
         subject(a_failed_step_leaves_every_field_as_it_was),
         subject(a_value_out_of_its_range_fails_the_step_and_names_the_particle),
         subject(the_arena_names_every_field),
+        subject(a_column_set_is_a_line_and_its_loader),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
