@@ -318,6 +318,8 @@ static void what_it_takes_is_in_the_book(void **state)
             c.sponge_low[0] = 3;
             c.sponge_rate = 50;
             c.max_particles = 600;
+            for (int k = 1; k < SPH_DIM; k++) /* no more cells than they need */
+                c.lo[k] = -0.05, c.hi[k] = 0.05;
             sph_sim *sim = new_sim(&c);
             must(sim, sph_add_fluid(sim, NULL, &set));
             for (uint32_t n = 0; n < 600; n++) {
