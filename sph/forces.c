@@ -177,11 +177,12 @@ SPH_INLINE void force_general(const sph_choice *c, const sph_sim *sim, sph_threa
     else
         force_home(c, &sim->fac, sim, t, h, false);
 }
-/* the form that covers fluids; corrected gradients; scenes with solids */
+/* the form that covers fluids (in small builds with corrected gradients); corrected gradients; scenes with solids */
 SPH_APART void force_fluid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = own.repulsion = own.gradient = 0;
+    own.solid = own.total = own.hat = own.repulsion = 0;
+    own.gradient = SPH_SMALL ? own.gradient : 0;
     force_general(&own, sim, t, h);
 }
 SPH_APART void force_corrected(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
@@ -311,7 +312,7 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
             sph_boundary_force(sim, t, h);
         else if (SPH_WITH_SOLID && c.solid)
             force_solid(&c, sim, t, h);
-        else if (SPH_HAS_FLUID_GRADIENT && c.gradient)
+        else if (SPH_HAS_FLUID_GRADIENT && !SPH_SMALL && c.gradient)
             force_corrected(&c, sim, t, h);
         else
             force_fluid(&c, sim, t, h);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* test_lists.c: a state field is a line of a list. The kernel is compiled once more with the fields of extra_fields.h
-   and the column set of lists_columns.h, and they do what the list says of them, in every integrator: nothing else in the kernel names them. */
+   and the column set of lists_columns.h, and they do what the list says of them, in every integrator: nothing else in
+   the kernel names them. */
 #include "testing.h"
 
 #include "sph/sweep.h"
@@ -360,7 +361,8 @@ static bool any_home(const sph_sim *sim, const sph_set *set)
 }
 static void look_at_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    const sph_real *own = sph_columns_of(sim, t, SPH_COLUMN_spare), *home = sph_home_columns_of(sim, t, SPH_COLUMN_spare);
+    const sph_real *own = sph_columns_of(sim, t, SPH_COLUMN_spare);
+    const sph_real *home = sph_home_columns_of(sim, t, SPH_COLUMN_spare);
     assert_int_equal(role, SPH_ROLE_FLUID);
     for (uint32_t j = 0; j < t->bodies.n + SPH_LANES; j++) {
         const bool is = j < t->bodies.n; /* behind the last there is nothing, and that is finite */
