@@ -39,8 +39,8 @@ const sph_pass sph_pass_summation = {"summation", sph_sweep_chunks, summation_ch
 
 static bool filters_now(const sph_sim *sim)
 {
-    const uint32_t every = SPH_WITH_SHEPARD ? sim->cfg.shepard_every : 0;
-    return every && sim->next.step && sim->next.step % every == 0;
+    const uint32_t every = sim->cfg.shepard_every;
+    return SPH_WITH_SHEPARD && every && sim->next.step && sim->next.step % every == 0;
 }
 
 #if SPH_WITH_SHEPARD

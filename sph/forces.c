@@ -118,7 +118,7 @@ SPH_INLINE void pair_ghosts(const void *what, uint32_t j, vreal *s) { pair(what,
 SPH_INLINE void pair_either(const void *what, uint32_t j, vreal *s)
 {
     const at_home *const o = what;
-    pair(o, o->c->wall, j, s);
+    pair(o, SPH_HAS_LAYERED_WALLS && o->c->wall, j, s);
 }
 
 /* the sums that these choices take */

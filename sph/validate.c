@@ -43,9 +43,9 @@ bool sph_is_tile_sound(const sph_tile *t)
 {
     bool fine = t->n <= SPH_TILE;
     for (uint32_t j = 0; j < t->n; j++) {
-        sph_real sum = t->m[j] + t->rho[j] + t->press[j];
+        sph_real sum = t->m[j];
         for (uint32_t k = 0; k < SPH_DIM; k++)
-            sum += t->x[k][j] + t->v[k][j];
+            sum += t->x[k][j];
         fine &= sum - sum == 0 && t->m[j] > 0;
     }
     return fine;
