@@ -29,7 +29,7 @@ static sph_status check_arena(const void *arena, size_t bytes, size_t need, sph_
 
 sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t bytes, sph_report *report)
 {
-    sph_report local, *r = report ? report : &local;
+    sph_report local = SPH_NO_REPORT, *r = report ? report : &local;
     sph_grid grid;
     size_t need = 0;
     *r = SPH_NO_REPORT;

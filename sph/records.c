@@ -59,6 +59,8 @@ static bool store_member(uint32_t member, uint64_t u, unsigned char *p)
     double d;
     memcpy(&d, &u, 8);
     const sph_pos q = (sph_pos)(u < 0x8000000000000000u ? (int64_t)u : -(int64_t)~u - 1);
+    if (!p)
+        return false;
     switch (member) {
     case M_REAL:
         if (!is_finite(d) || (d < 0 ? -d : d) > (SPH_DOUBLE ? DBL_MAX : (double)FLT_MAX))

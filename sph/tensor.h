@@ -82,11 +82,12 @@ SPH_INLINE void sph_principal(vreal (*a)[3], vreal (*e)[3])
 /* the cofactor of component k, l */
 SPH_INLINE sph_real sph_cofactor(const sph_real (*m)[SPH_DIM], int k, int l)
 {
-    const int a = (k + 1) % SPH_DIM, b = (k + 2) % SPH_DIM, c = (l + 1) % SPH_DIM, d = (l + 2) % SPH_DIM;
+    const int a = (k + 1) % SPH_DIM, c = (l + 1) % SPH_DIM;
     if (SPH_DIM == 1)
         return 1;
     if (SPH_DIM == 2)
         return k == l ? m[a][c] : -m[a][c];
+    const int b = (k + 2) % SPH_DIM, d = (l + 2) % SPH_DIM;
     return m[a][c] * m[b][d] - m[a][d] * m[b][c];
 }
 
