@@ -252,24 +252,23 @@ static const struct {
     sph_choice c;
     fast_path *run;
 } fast_paths[] = {
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SOLID
+    SPH_FAST_SOLIDS(SPH_FAST_ROW)
+#endif
 #if SPH_WITH_FAST_PATHS
     SPH_FAST_FORCES(SPH_FAST_ROW)
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_BONET_LOK
     SPH_FAST_CORRECTED(SPH_FAST_ROW)
 #endif
-#if SPH_WITH_FAST_PATHS && SPH_WITH_SOLID
-    SPH_FAST_SOLIDS(SPH_FAST_ROW)
-#endif
     {{0}, NULL}};
 
 static bool same_choice(const sph_choice *a, const sph_choice *b)
 {
-    const unsigned char *p = (const unsigned char *)a, *q = (const unsigned char *)b;
-    uint32_t k = 0;
-    while (k < sizeof *a && p[k] == q[k])
-        k++;
-    return k == sizeof *a;
+    uint64_t x[2], y[2];
+    memcpy(x, a, sizeof x);
+    memcpy(y, b, sizeof y);
+    return x[0] == y[0] && x[1] == y[1];
 }
 
 /* the fast path of these choices, or null */

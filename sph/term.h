@@ -35,7 +35,9 @@ typedef struct sph_choice {
     uint8_t beta, xsph, books;
     uint8_t solid, total, hat; /* a stress tensor; reference positions; strain rates from smoothed velocities */
     uint8_t repulsion;         /* exponent of the artificial stress, 0: none */
+    uint8_t spare[3];
 } sph_choice;
+_Static_assert(sizeof(sph_choice) == 16, "sph_choice is compared as two words (forces.c)");
 /* whether the rate of density is summed without rho_i, by which it is multiplied in the end */
 SPH_INLINE bool sph_rate_by_density(uint32_t scheme, uint32_t gradient)
 {
