@@ -6,8 +6,9 @@ set -e
 cat <<END
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # study: interpolation
-# title: sums over particles against exact values (W1: Wickramarachchi 2009, figure 2.4; P1: Powell 2012, figures 1.2,
-# 1.3) figures: what they are stands at the head of tests/lab/interpolation.c
+# title: sums over particles against exact values (W1: Wickramarachchi 2009, figure 2.4; P1: Powell 2012, \
+figures 1.2, 1.3)
+# figures: what they are stands at the head of tests/lab/interpolation.c
 # command: make lab
 case,kernel,h,figure,value
 END
