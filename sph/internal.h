@@ -244,7 +244,7 @@ SPH_INLINE bool sph_has_solids(const sph_config *c) { return SPH_WITH_SOLID && c
 /* predictor-corrector, fluids: the change of the rate of density is foreseen (kick.h) */
 SPH_INLINE bool sph_foresees(const sph_config *c)
 {
-    return SPH_IS(c->integrator, PREDICTOR_CORRECTOR) && !sph_has_solids(c) && !sph_sums_density(c);
+    return SPH_IS(c->integrator, PREDICTOR_CORRECTOR) && !sph_has_solids(c);
 }
 SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->solid == SPH_TOTAL; }
 SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
