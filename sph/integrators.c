@@ -25,6 +25,8 @@ static uint32_t spare(const sph_sim *sim, uint32_t a, uint32_t b)
 /* groups go to where they are when a share of the step has gone; at its beginning they are there */
 static sph_status go_to(sph_sim *sim, sph_real share)
 {
+    if (!SPH_HAS_GROUPS && !SPH_WITH_BODY_FORCE)
+        return SPH_OK;
     sim->moment = share < 1 ? sim->now.time + (double)share * sim->dt : sim->next.time;
     return SPH_HAS_GROUPS ? sph_move_groups(sim, sim->moment, share > 0) : SPH_OK;
 }
@@ -162,14 +164,16 @@ static const sph_pass pass_advance = {"advance", sph_local_chunks, advance_chunk
 /* the end of the first forces */
 static void prime_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_span s = sph_chunk_span(sim, chunk);
     settle_chunk(sim, chunk, t);
-    if (sph_foresees(&sim->cfg))
-        memset(sim->buf[sim->dst].rise[0] + s.first, 0, (s.last - s.first) * sizeof(sph_real));
     if (SPH_WITH_BOOKS)
-        sph_sum_powers(sim, chunk, s);
+        sph_sum_powers(sim, chunk, sph_chunk_span(sim, chunk));
 }
-static sph_status primed(sph_sim *sim) { return SPH_WITH_BOOKS ? sph_first_powers(sim) : SPH_OK; }
+static sph_status primed(sph_sim *sim)
+{
+    if (sph_foresees(&sim->cfg)) /* nothing is known of how rates change */
+        memset(sim->buf[sim->dst].rise[0], 0, sim->next.count * sizeof(sph_real));
+    return SPH_WITH_BOOKS ? sph_first_powers(sim) : SPH_OK;
+}
 static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, primed, NULL};
 
 /* ---- the lists: what each integrator does, in order ---- */

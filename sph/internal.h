@@ -244,7 +244,8 @@ SPH_INLINE bool sph_has_solids(const sph_config *c) { return SPH_WITH_SOLID && c
 /* predictor-corrector, fluids: the change of the rate of density is foreseen (kick.h) */
 SPH_INLINE bool sph_foresees(const sph_config *c)
 {
-    return SPH_IS(c->integrator, PREDICTOR_CORRECTOR) && !sph_has_solids(c);
+    const bool only = SPH_INTEGRATORS_IN == 1 << SPH_PREDICTOR_CORRECTOR;
+    return (only || SPH_IS(c->integrator, PREDICTOR_CORRECTOR)) && !sph_has_solids(c);
 }
 SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->solid == SPH_TOTAL; }
 SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
@@ -264,6 +265,8 @@ SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set
 {
     return sim->material + (s - sim->set);
 }
+/* whether a set of ghosts has a density that goes by continuity */
+SPH_INLINE bool sph_is_compressible(const sph_set *s) { return SPH_WITH_WALL_GHOST && s->compressible; }
 SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */

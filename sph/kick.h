@@ -22,7 +22,7 @@ SPH_INLINE void sph_foresee_run(const sph_sim *sim, const sph_set *set, uint32_t
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, set), *at = b->id[0];
-    const sph_move m = sph_stage_move(sim);
+    const sph_move m = SPH_HAS_MIRRORS ? sph_stage_move(sim) : (sph_move){0};
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         sph_real *v = b->vel[k];
         const sph_real *old = o->acc[k];
@@ -44,7 +44,7 @@ SPH_INLINE void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t fi
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, set), *at = b->id[0];
     const sph_real g = (sph_real)sim->cfg.damping;
-    const sph_move m = sph_stage_move(sim);
+    const sph_move m = SPH_HAS_MIRRORS ? sph_stage_move(sim) : (sph_move){0};
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         sph_real *v = b->vel[k];
         const sph_real *a = b->acc[k], *old = o->acc[k];
@@ -64,14 +64,14 @@ SPH_INLINE void sph_correct(const sph_sim *sim, sph_span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const sph_real half = (sph_real)sim->dt * (sph_real)0.5, *rate = b->drho[0], *old = o->drho[0];
-    const sph_real foresight = sph_foresight(sim);
-    const bool foresees = sph_foresees(&sim->cfg);
+    const bool foresees = !sph_has_solids(&sim->cfg);
+    const sph_real foresight = foresees ? sph_stage_move(sim).foresight : 0;
     const uint32_t *at = b->id[0];
     sph_real *rho = b->rho[0];
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(b->set[0], i, s.last);
         const sph_set *set = &sim->set[b->set[0][i]];
-        const bool body = sph_is_body(set), evolves = body || set->compressible;
+        const bool body = sph_is_body(set), evolves = body || sph_is_compressible(set);
         for (uint32_t j = i; j < e && evolves && !foresees; j++)
             rho[j] = rho[j] + half * (rate[j] - old[at[j]]);
         for (uint32_t j = i; j < e && evolves && foresees; j++) {
@@ -107,7 +107,7 @@ SPH_INLINE void sph_to_the_end(const sph_sim *sim, sph_span s)
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(b->set[0], i, s.last);
         const sph_set *set = &sim->set[b->set[0][i]];
-        for (uint32_t j = i; j < e && (sph_is_body(set) || set->compressible); j++)
+        for (uint32_t j = i; j < e && (sph_is_body(set) || sph_is_compressible(set)); j++)
             b->rho[0][j] = o->rho[0][at[j]] + dt * b->drho[0][j];
         if (sph_is_body(set))
             sph_foresee_run(sim, set, i, e, dt * (sph_real)0.5);

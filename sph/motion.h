@@ -19,17 +19,11 @@ int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v);
 
 /* ---- move.c: a block of particles of buffer src ---- */
 
-/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho + rise of it */
+/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho, and + foresight
+   rise in the predictor-corrector */
 typedef struct sph_move {
-    sph_real drift, bend, kick, rate, rise, damping;
+    sph_real drift, bend, kick, rate, foresight, damping;
 } sph_move;
-/* Predictor-corrector: what the predicted density takes of `rise`, s: dt (dt/last dt). Two at most: where a very short
-   step comes before a long one, its rise is noise. */
-SPH_INLINE sph_real sph_foresight(const sph_sim *sim)
-{
-    const double last = sim->now.dt_last, dt = sim->dt;
-    return (sph_real)(dt < 2 * last ? dt * (dt / last) : 2 * dt);
-}
 #define sph_stage_move SPH_NAME(stage_move_)
 sph_move sph_stage_move(const sph_sim *sim);
 

@@ -3,11 +3,17 @@
    their velocity and acceleration, walls and held sets as their group is told; then the faces of the domain. */
 #include "motion.h"
 
+/* What the predicted density takes of `rise`: dt (dt/last dt). Two dt at most: where a very short step comes before a
+   long one, its rise is noise. */
+static sph_real foresight(sph_real dt, sph_real last) { return dt < 2 * last ? dt * (dt / last) : 2 * dt; }
+
 sph_move sph_stage_move(const sph_sim *sim)
 {
     const sph_stage *g = sim->stage;
     const sph_real dt = (sph_real)sim->dt, damping = g->damps ? (sph_real)sim->cfg.damping : 1;
-    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, g->rate * sph_foresight(sim), damping};
+    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping};
+    if (sph_foresees(&sim->cfg))
+        m.foresight = g->rate * foresight(dt, (sph_real)sim->now.dt_last);
     if (g->resumes && SPH_IS(sim->cfg.integrator, LEAP_FROG)) {
         m.kick = (sph_real)((sim->dt - sim->now.dt_last) * 0.5);
         m.bend = dt * m.kick;
@@ -44,10 +50,11 @@ SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, u
                 v_store(o->vel[k] + at + j, (v + f * a->kick) * a->damping);
         }
     }
-    for (uint32_t j = 0; all && j < n; j += SPH_W)
-        v_store(o->rho + at + j, v_load(b->rho[0] + i + j) + v_load(b->drho[0] + i + j) * a->rate);
-    for (uint32_t j = 0; all && sph_foresees(&sim->cfg) && j < n; j += SPH_W)
-        v_store(o->rho + at + j, v_load(o->rho + at + j) + v_load(b->rise[0] + i + j) * a->rise);
+    const sph_real *const rise = sph_foresees(&sim->cfg) ? b->rise[0] + i : NULL;
+    for (uint32_t j = 0; all && j < n; j += SPH_W) {
+        const vreal rho = v_load(b->rho[0] + i + j) + v_load(b->drho[0] + i + j) * a->rate;
+        v_store(o->rho + at + j, rise ? rho + v_load(rise + j) * a->foresight : rho);
+    }
     sph_int lanes[SPH_W], any = 0;
     v_store_int(lanes, bad);
     for (int l = 0; l < SPH_W; l++)
@@ -71,9 +78,11 @@ static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, 
             fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->grid.extent[k]);
             o->vel[k][at + j] = b->vel[k][i + j];
         }
-        o->rho[at + j] = s->compressible ? b->rho[0][i + j] + b->drho[0][i + j] * a->rate : b->rho[0][i + j];
-        if (s->compressible && sph_foresees(&sim->cfg))
-            o->rho[at + j] += b->rise[0][i + j] * a->rise;
+        o->rho[at + j] = b->rho[0][i + j];
+        if (sph_is_compressible(s))
+            o->rho[at + j] += b->drho[0][i + j] * a->rate;
+        if (sph_is_compressible(s) && sph_foresees(&sim->cfg))
+            o->rho[at + j] += b->rise[0][i + j] * a->foresight;
         o->gone[at + j] = removed;
     }
     return fine;

@@ -36,7 +36,7 @@ void sph_settle(const sph_sim *sim, sph_span s)
             continue;
         n = n ? n : find_summed(b, summed);
         for (uint32_t k = 0; k < n; k++) /* walls that are compressible have a rate of density, and its rise */
-            if (!sim->set[set].compressible || (summed[k] != b->drho[0] && summed[k] != b->rise[0]))
+            if (!sph_is_compressible(&sim->set[set]) || (summed[k] != b->drho[0] && summed[k] != b->rise[0]))
                 memset(summed[k] + i, 0, (e - i) * sizeof(sph_real));
     }
 }
