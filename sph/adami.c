@@ -55,9 +55,8 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     double w = (double)v_fold(t->sum[SUM_W][h]), p = (double)v_fold(t->sum[SUM_PW][h]);
     const bool wet = w * (double)sim->fac.value * set->mass > 1e-6 * set->rho0;
     for (int k = 0; k < SPH_DIM; k++) {
-        /* acceleration of the wall, by difference over the step */
         const double v = sph_wall_velocity(sim, set, (uint32_t)k);
-        const double a = SPH_WITH_MOVING_WALLS && sim->dt > 0 ? (v - sim->now.group[set->group].vel[k]) / sim->dt : 0;
+        const double a = SPH_WITH_MOVING_WALLS ? sim->wall_acc[set->group][k] : 0;
         p += (sim->cfg.gravity[k] - a) * (double)v_fold(t->sum[SUM_RW + k][h]);
         b->acc[k][i] = (sph_real)(wet ? 2 * v - (double)v_fold(t->sum[SUM_UW + k][h]) / w : v);
     }
@@ -88,7 +87,11 @@ static void adami_copy_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
             memcpy(b->vel[k] + i, b->acc[k] + i, (e - i) * sizeof(sph_real));
     }
 }
-static bool has_adami(const sph_sim *sim) { return sim->has_adami; }
+/* rates ask for the densities of walls in some schemes only */
+static bool has_adami(const sph_sim *sim)
+{
+    return sim->has_adami && (sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD));
+}
 const sph_pass sph_pass_adami = {"adami walls", sph_sweep_chunks, adami_chunk, NULL, has_adami};
 const sph_pass sph_pass_adami_copy = {"adami copy", sph_local_chunks, adami_copy_chunk, NULL, has_adami};
 #endif

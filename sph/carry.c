@@ -99,16 +99,6 @@ void sph_correct_fields(sph_sim *sim, sph_span s)
             e.to[i] = e.to[i] + half * (e.rate[i] - e.old_rate[at[i]]);
 }
 
-void sph_evolve_fields(sph_sim *sim, sph_span s)
-{
-    if (!sph_has_ways(&sim->cfg, 1u << SPH_EVOLVING))
-        return;
-    const sph_real dt = (sph_real)sim->dt;
-    for (evolving e = first_evolving(sim); e.to; e = next_evolving(sim, &e))
-        for (uint32_t i = s.first; i < s.last; i++)
-            e.to[i] = e.to[i] + dt * e.rate[i];
-}
-
 void sph_retake_fields(sph_sim *sim, sph_span s)
 {
     if (!sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS))

@@ -4,17 +4,20 @@
 #include "factors.h"
 #include "kernels.h"
 
-/* The predictor-corrector evaluates forces once, at the predicted state, and keeps them: on an oscillation w it
-   multiplies the amplitude by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu + z/2 = 0, z = i w dt). Sound of the
-   shortest waves grows unless dissipation, whose effect a step goes as dt, is stronger: so the largest Courant number
-   goes as its cube root. 0.22 is what a still tank of 30 particles stands with alpha = 0.01 alone
-   (tests/validate_water.py, G2). */
+/* The predictor-corrector evaluates forces once a step, at the predicted state, and keeps them. In fluids it foresees the
+   rise of the rate of density (kick.h), and stands an oscillation up to w dt = 0.75, where kick-drift-kick stands 2; in
+   disorder that is a Courant number of 0.5. Corrected gradients about double the frequency of the shortest waves at a
+   surface. */
+#define PC_FLUID 0.5
+#define PC_FLUID_CORRECTED 0.25
+/* Of solids nothing is foreseen: an oscillation is multiplied by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu + z/2 =
+   0, z = i w dt). Sound of the shortest waves grows unless dissipation, whose effect a step goes as dt, is stronger: so
+   the largest Courant number goes as its cube root. 0.22 is what a still tank of 30 particles stood with alpha = 0.01
+   alone; with alpha 0.02, 0.1, 0.5 a free block of a solid kept quiet up to 0.29, 0.43, 0.65 (updated), 0.18, 0.24, 0.37
+   (corrected). */
 #define PC_COURANT 0.22
 #define PC_DISSIPATION (0.01 / 8) /* nu/(h c) of artificial viscosity with alpha 0.01 in 2-D */
 #define PC_COURANT_LEAST 0.05
-/* Solids stand less: with alpha 0.02, 0.1, 0.5 a free block of them kept quiet up to 0.29, 0.43, 0.65 (updated),
-   0.18, 0.24, 0.37 (corrected), where the rule for water says 0.28, 0.47, 0.81; corrected gradients raise the
-   shortest waves' frequency. */
 #define PC_UPDATED 0.75
 #define PC_CORRECTED 0.42
 /* cube root of 1e-3 .. 1e6: Newton's rule from 1. At worst (1e6) one turn overshoots, about 20 take a third off each,
@@ -27,20 +30,26 @@ static double cube_root(double x)
     return r;
 }
 
-double sph_courant_factor(const sph_config *c)
+/* what the predictor-corrector stands in scenes with solids */
+static double solids_stand(const sph_config *c)
 {
-    if (!SPH_IS(c->integrator, PREDICTOR_CORRECTOR))
-        return c->cfl;
     double d = sph_diffusive(c->diffusion) ? c->delta : 0;
     if (SPH_IS(c->viscosity, MORRIS))
         d += c->nu / (c->smoothing_length * c->sound_speed);
     else if (sph_viscous(c->viscosity))
         d += c->alpha / 8;
     const double x = d / PC_DISSIPATION;
-    double stands = x < 1e-3 ? 0 : x > 1e6 ? PC_COURANT * 100 : PC_COURANT * cube_root(x);
-    if (sph_has_solids(c) || sph_corrects_fluids(c))
-        stands *= sph_corrects(c) || sph_corrects_fluids(c) ? PC_CORRECTED : PC_UPDATED;
-    stands = stands < PC_COURANT_LEAST ? PC_COURANT_LEAST : stands;
+    const double stands = x < 1e-3 ? 0 : x > 1e6 ? PC_COURANT * 100 : PC_COURANT * cube_root(x);
+    const double own = stands * (sph_corrects(c) ? PC_CORRECTED : PC_UPDATED);
+    return own < PC_COURANT_LEAST ? PC_COURANT_LEAST : own;
+}
+
+double sph_courant_factor(const sph_config *c)
+{
+    if (!SPH_IS(c->integrator, PREDICTOR_CORRECTOR))
+        return c->cfl;
+    const double fluid = sph_corrects_fluids(c) ? PC_FLUID_CORRECTED : PC_FLUID;
+    const double stands = sph_has_solids(c) ? solids_stand(c) : fluid;
     return c->cfl < stands ? c->cfl : stands;
 }
 

@@ -37,6 +37,7 @@ typedef sph_int sph_pos;
     X(rho, sph_real, 1, "1", true, SPH_PLACED) /* (density - rho0)/rho0 */                                        \
     X(acc, sph_real, SPH_DIM, "m/s^2", true, SPH_SUMMED)                                                          \
     X(drho, sph_real, 1, "1/s", true, SPH_SUMMED)                                                                 \
+    X(rise, sph_real, 1, "1/s", sph_foresees(c), SPH_SUMMED) /* half of what drho rose by in the latest step */      \
     X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c), SPH_SUMMED)                                               \
     X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c), SPH_EVOLVES(dstress)) /* deviatoric: see SPH_NS */       \
     X(dstress, sph_real, SPH_NS, "Pa/s", sph_has_solids(c), SPH_RATE)                                             \

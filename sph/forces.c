@@ -322,8 +322,8 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
 
 static bool is_force_home(const sph_sim *sim, const sph_set *s)
 {
-    (void)sim;
-    return sph_is_body(s) || (s->role == SPH_ROLE_GHOST && s->compressible && s->kind == SPH_WALL_GHOST);
+    const bool ghost = s->role == SPH_ROLE_GHOST && s->compressible && s->kind == SPH_WALL_GHOST;
+    return sph_is_body(s) || (ghost && sph_sums_rates(sim));
 }
 
 SPH_INLINE sph_real larger(sph_real a, sph_real b) { return a < b ? b : a; }
@@ -340,7 +340,7 @@ static sph_real add_body_force(const sph_sim *sim, const sph_thread *t, uint32_t
         v[k] = (double)t->home.v[k][h];
         add[k] = 0;
     }
-    c->body_force(c->body_ctx, sim->next.time, x, v, add);
+    c->body_force(c->body_ctx, sim->moment, x, v, add);
     for (int k = 0; k < SPH_DIM; k++) {
         acc[k] += (sph_real)add[k];
         power += (sph_real)add[k] * t->home.v[k][h];
@@ -402,17 +402,14 @@ static sph_real finish_rates(const sph_sim *sim, const sph_thread *t, uint32_t h
     return f->continuity ? d : 0;
 }
 
-/* forces and rates of one particle from its sums */
-static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+/* the acceleration of a home from its sums; returns its square */
+SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_factors *f = &sim->fac;
     const sph_buffer *b = &sim->buf[sim->dst];
     const uint32_t i = t->home_at[h];
     const sph_set *set = &sim->set[t->home_set[h]];
     sph_real acc[SPH_DIM], a2 = 0, v2 = 0;
-    const sph_real d = b->drho[0][i] = finish_rates(sim, t, h);
-    if (!sph_is_body(set))
-        return;
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         acc[k] = f->gravity[k] - v_fold(t->sum[SUM_ACC + k][h]) * f->slope;
@@ -429,6 +426,22 @@ static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     t->peaks.mu = larger(t->peaks.mu, v_fold_max(t->sum[SUM_MU][h]) * (2 * t->home.rho[h]));
     t->peaks.acc = larger(t->peaks.acc, a2);
     t->peaks.speed = larger(t->peaks.speed, v2);
+    return a2;
+}
+
+/* forces and rates of one particle from its sums */
+static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const uint32_t i = t->home_at[h];
+    const sph_set *set = &sim->set[t->home_set[h]];
+    sph_real a2 = 0, d = 0;
+    if (sph_sums_rates(sim))
+        d = b->drho[0][i] = finish_rates(sim, t, h);
+    if (!sph_is_body(set))
+        return;
+    if (sph_sums_forces(sim))
+        a2 = finish_forces(sim, t, h);
     if (!(a2 + d * d < SPH_LIMIT_SQUARE)) /* also catches not-a-number */
         sph_fail_note(t, SPH_NOT_FINITE, sim->buf[sim->src].id[0][b->id[0][i]], (double)a2);
 }

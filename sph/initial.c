@@ -4,6 +4,13 @@
 #include "setup.h"
 
 #if SPH_WITH_FIELDS
+/* velocity of a particle now: leap-frog's are half a step ahead, and forces made anew begin where they are not */
+static double velocity_now(const sph_sim *sim, const sph_buffer *b, uint32_t i, int k)
+{
+    const double v = (double)b->vel[k][i];
+    return SPH_IS(sim->cfg.integrator, LEAP_FROG) ? v - 0.5 * sim->now.dt_last * (double)b->acc[k][i] : v;
+}
+
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx)
 {
     sph_status st = sph_setup_idle(sim, "sph_apply_field");
@@ -20,7 +27,7 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
         double x[SPH_DIM], v[SPH_DIM], rho = rho0 * (1 + (double)b->rho[0][i]);
         for (int k = 0; k < SPH_DIM; k++) {
             x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
-            v[k] = (double)b->vel[k][i];
+            v[k] = velocity_now(sim, b, i, k);
         }
         fn(ctx, x, v, &rho);
         if ((st = sph_setup_check_vector(sim, "field velocity", v)) != SPH_OK)
@@ -34,8 +41,10 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
     for (uint32_t i = 0; i < sim->now.count; i++) {
         if (b->set[0][i] != set)
             continue;
-        for (int k = 0; k < SPH_DIM; k++)
+        for (int k = 0; k < SPH_DIM; k++) {
             b->vel[k][i] = wait->vel[k][i];
+            b->acc[k][i] = 0; /* as before the first forces */
+        }
         b->rho[0][i] = wait->rho[0][i];
     }
     sim->now.primed = false;

@@ -22,11 +22,28 @@ static uint32_t spare(const sph_sim *sim, uint32_t a, uint32_t b)
     return 0;
 }
 
+/* groups go to where they are when a share of the step has gone; at its beginning they are there */
+static sph_status go_to(sph_sim *sim, sph_real share)
+{
+    if (!SPH_HAS_GROUPS && !SPH_WITH_BODY_FORCE)
+        return SPH_OK;
+    sim->moment = share < 1 ? sim->now.time + (double)share * sim->dt : sim->next.time;
+    return SPH_HAS_GROUPS ? sph_move_groups(sim, sim->moment, share > 0) : SPH_OK;
+}
+/* only their accelerations are those of that time */
+static sph_status look_at(sph_sim *sim, double t) { return SPH_HAS_GROUPS ? sph_move_groups(sim, t, false) : SPH_OK; }
+
+/* before a step */
+sph_status sph_prepare(sph_sim *sim, const sph_integrator *g)
+{
+    const sph_status st = go_to(sim, g->first->at);
+    return st || !SPH_HAS_RATES_FIRST || !g->first->middle ? st : look_at(sim, sim->now.time + 0.5 * sim->dt);
+}
+
 static sph_status begin(sph_sim *sim)
 {
     const sph_integrator *g = sim->integrator;
-    sph_begin_sort(sim, sim->cur, spare(sim, sim->cur, sim->cur), sim->now.count, sim->table_valid,
-                   sim->now.started ? g->first : g->begins);
+    sph_begin_sort(sim, sim->cur, spare(sim, sim->cur, sim->cur), sim->now.count, sim->table_valid, g->first);
     return SPH_OK;
 }
 static const sph_pass pass_begin = {"begin", NULL, NULL, begin, NULL};
@@ -34,14 +51,15 @@ static const sph_pass pass_begin = {"begin", NULL, NULL, begin, NULL};
 static sph_status begin_second(sph_sim *sim)
 {
     sph_begin_sort(sim, sim->dst, spare(sim, sim->cur, sim->dst), sim->next.count, true, sim->integrator->second);
-    return SPH_OK;
+    return go_to(sim, sim->stage->at);
 }
 static const sph_pass pass_begin_second = {"begin second stage", NULL, NULL, begin_second, NULL};
 
-/* ---- what modules do to particles, where nothing is summed ---- */
+/* Runge-Kutta: walls go on to the step's end */
+static sph_status end_second(sph_sim *sim) { return go_to(sim, 1); }
+static const sph_pass pass_end_second = {"end second stage", NULL, NULL, end_second, NULL};
 
-/* before a step that ends at time t */
-sph_status sph_prepare(sph_sim *sim, double t) { return SPH_HAS_GROUPS ? sph_move_groups(sim, t) : SPH_OK; }
+/* ---- what modules do to particles, where nothing is summed ---- */
 
 /* wherever fields have advanced: back to where laws keep them */
 static void restrain(const sph_sim *sim, sph_span s)
@@ -93,18 +111,23 @@ static const sph_pass pass_correct = {"correct", sph_local_chunks, correct_chunk
 static void density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
-    sph_density_whole(sim, s);
-    sph_evolve_fields(sim, s);
+    sph_to_the_end(sim, s);
+    sph_retake_fields(sim, s);
     restrain(sim, s);
     t->work += s.last - s.first;
 }
-static const sph_pass pass_density = {"density", sph_local_chunks, density_chunk, NULL, NULL};
+static sph_status at_the_end(sph_sim *sim)
+{
+    sim->middle = false;
+    return look_at(sim, sim->moment);
+}
+static const sph_pass pass_density = {"density", sph_local_chunks, density_chunk, at_the_end, NULL};
 
 /* kick-drift-kick: the second kick */
 static void kick_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
-    sph_kick(sim, s, (sph_real)sim->dt * (sph_real)0.5);
+    sph_kick(sim, s, 1);
     finish(sim, chunk, s, t);
 }
 static const sph_pass pass_kick = {"kick", sph_local_chunks, kick_chunk, finished, NULL};
@@ -113,7 +136,7 @@ static const sph_pass pass_kick = {"kick", sph_local_chunks, kick_chunk, finishe
 static void velocity_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
-    sph_kick(sim, s, (sph_real)sim->dt);
+    sph_kick(sim, s, 2);
     finish(sim, chunk, s, t);
 }
 static const sph_pass pass_velocity = {"velocity", sph_local_chunks, velocity_chunk, finished, NULL};
@@ -145,7 +168,12 @@ static void prime_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     if (SPH_WITH_BOOKS)
         sph_sum_powers(sim, chunk, sph_chunk_span(sim, chunk));
 }
-static sph_status primed(sph_sim *sim) { return SPH_WITH_BOOKS ? sph_first_powers(sim) : SPH_OK; }
+static sph_status primed(sph_sim *sim)
+{
+    if (sph_foresees(&sim->cfg)) /* nothing is known of how rates change */
+        memset(sim->buf[sim->dst].rise[0], 0, sim->next.count * sizeof(sph_real));
+    return SPH_WITH_BOOKS ? sph_first_powers(sim) : SPH_OK;
+}
 static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, primed, NULL};
 
 /* ---- the lists: what each integrator does, in order ---- */
@@ -171,29 +199,31 @@ static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, END(pas
 static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_kick)};
 static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
-                           &pass_begin_second, SORT, DENSITIES, FORCES, END(pass_advance)};
+                           &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance)};
 
-/* what the sorts do: drift, bend, kick, rate; damps, reflects, middle */
-static const sph_stage stays = {0, 0, 0, 0, false, true, false};
-static const sph_stage predicts = {1, 0.5, 1, 1, true, true, false};       /* Gray 2001 eqs 2.26, 2.27, 2.29 */
-static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0, true, true, true};
-static const sph_stage leaps = {1, 0, 0, 0, false, true, true};
-static const sph_stage first_leap = {1, 0.5, 0.5, 0, false, true, true};   /* turns v^0 into v^(1/2) */
-static const sph_stage half_way = {0.5, 0, 0.5, 0.5, false, false, false}; /* Wickramarachchi 3.85, mean of 3.91 */
+/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle. Kick-drift-kick and leap-frog take
+   fields to the middle of the step by the rates of the last middle: to second order there, enough for rates that
+   depend on them. Leap-frog's kick and bend follow from the last step (move.c). */
+static const sph_stage stays = {0, 0, 0, 0, 0, false, true, false, false};
+static const sph_stage begins = {0, 0, 0, 0, 1, false, true, true, false};
+static const sph_stage predicts = {1, 0.5, 1, 1, 1, true, true, false, false}; /* Gray 2001 eqs 2.26, 2.27, 2.29 */
+static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0.5, 1, true, true, false, true};
+static const sph_stage leaps = {1, 0, 0, 0.5, 1, false, true, true, true};
+static const sph_stage half_way = {0.5, 0, 0.5, 0.5, 0.5, false, false, false, false}; /* Wickramarachchi 3.85, mean of 3.91 */
 
 /* ---- the table ---- */
 
 /* left out: an empty list */
-#define ROW(knob, passes, first, begins, second)                                                                   \
-    {MODULE(knob, (passes)[0]), (knob) ? sizeof(passes) / sizeof *(passes) : 0,                                    \
-     MODULE(knob, first), MODULE(knob, begins), MODULE(knob, second)}
+#define ROW(knob, passes, first, second)                                                                           \
+    {MODULE(knob, (passes)[0]), (knob) ? sizeof(passes) / sizeof *(passes) : 0, MODULE(knob, first),               \
+     MODULE(knob, second)}
 static const sph_integrator integrators[SPH_NO_INTEGRATOR + 1] = {
-    [SPH_PREDICTOR_CORRECTOR] = ROW(SPH_WITH_PREDICTOR_CORRECTOR, predictor_corrector, predicts, predicts, stays),
-    [SPH_KICK_DRIFT_KICK] = ROW(SPH_WITH_KICK_DRIFT_KICK, kick_drift_kick, kicks_and_drifts, kicks_and_drifts, stays),
-    [SPH_LEAP_FROG] = ROW(SPH_WITH_LEAP_FROG, leap_frog, leaps, first_leap, stays),
-    [SPH_RUNGE_KUTTA] = ROW(SPH_WITH_RUNGE_KUTTA, runge_kutta, stays, stays, half_way),
-    [SPH_RUNGE_KUTTA_MOMENTUM] = ROW(SPH_WITH_RUNGE_KUTTA_MOMENTUM, runge_kutta, stays, stays, half_way),
-    [SPH_NO_INTEGRATOR] = ROW(true, first_forces, stays, stays, stays),
+    [SPH_PREDICTOR_CORRECTOR] = ROW(SPH_WITH_PREDICTOR_CORRECTOR, predictor_corrector, predicts, stays),
+    [SPH_KICK_DRIFT_KICK] = ROW(SPH_WITH_KICK_DRIFT_KICK, kick_drift_kick, kicks_and_drifts, stays),
+    [SPH_LEAP_FROG] = ROW(SPH_WITH_LEAP_FROG, leap_frog, leaps, stays),
+    [SPH_RUNGE_KUTTA] = ROW(SPH_WITH_RUNGE_KUTTA, runge_kutta, stays, half_way),
+    [SPH_RUNGE_KUTTA_MOMENTUM] = ROW(SPH_WITH_RUNGE_KUTTA_MOMENTUM, runge_kutta, stays, half_way),
+    [SPH_NO_INTEGRATOR] = ROW(true, first_forces, begins, stays),
 };
 
 const sph_integrator *sph_integrator_of(uint32_t integrator) { return &integrators[integrator]; }

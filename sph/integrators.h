@@ -9,7 +9,6 @@ typedef struct sph_integrator {
     const sph_pass *const *passes; /* null: a pass whose module was left out */
     uint32_t count;
     const sph_stage *first;        /* of its first sort */
-    const sph_stage *begins;       /* the same in a run's first step */
     const sph_stage *second;       /* of its second sort, if it has one */
 } sph_integrator;
 
@@ -18,8 +17,8 @@ typedef struct sph_integrator {
 #define sph_integrator_of SPH_NAME(integrator_of_)
 const sph_integrator *sph_integrator_of(uint32_t integrator);
 
-/* what is done before the passes of a step that ends at time t */
+/* what is done before the passes of a step */
 #define sph_prepare SPH_NAME(prepare_)
-sph_status sph_prepare(sph_sim *sim, double t);
+sph_status sph_prepare(sph_sim *sim, const sph_integrator *g);
 
 #endif

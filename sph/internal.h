@@ -110,9 +110,11 @@ typedef struct sph_pass sph_pass;
    displacement = drift (v + drift velocity) + bend a, v' = v + kick a, what evolves + rate d/dt. */
 typedef struct sph_stage {
     sph_real drift, bend, kick, rate;
+    sph_real at;   /* the moment of its forces, walls and body force: share of dt from the step's beginning */
     bool damps;    /* v' is multiplied by cfg.damping */
     bool reflects; /* particles that a mirror face turned are counted: not where the whole step will count them */
-    bool middle;   /* its sums are of positions at the step's end and velocities of its middle */
+    bool resumes;  /* leap-frog: velocities are ahead by half of the last step, and are to be ahead by half of this */
+    bool middle;   /* rates are summed first, in the middle of the step, then forces, at its end */
 } sph_stage;
 struct sph_integrator; /* integrators.h */
 
@@ -128,6 +130,9 @@ struct sph_sim {
     sph_buffer buf[3];
     uint32_t buffers, cur, src, dst; /* current state; source and target of the stage under way */
     uint32_t src_count;              /* particles in src */
+    bool middle;                     /* what is summed now is rates, in the middle of the step */
+    double moment;                   /* s, time of the forces and walls of the stage */
+    double wall_acc[SPH_MAX_GROUPS][SPH_DIM]; /* m/s^2, of groups that move, at that time (groups.c) */
     const sph_stage *stage;          /* the one under way */
     const struct sph_integrator *integrator; /* whose list of passes runs */
     bool src_table;                  /* cell[] belongs to src, so its slabs are known */
@@ -228,9 +233,20 @@ SPH_INLINE bool sph_diffusive(uint32_t d) { return SPH_IS(d, MOLTENI) || SPH_IS(
 SPH_INLINE bool sph_sums_density(const sph_config *c) { return SPH_IS(c->density, SUMMATION); }
 SPH_INLINE bool sph_keeps_books(const sph_config *c) { return SPH_WITH_BOOKS && c->books; }
 SPH_INLINE bool sph_uses_xsph(const sph_config *c) { return SPH_WITH_XSPH && c->xsph != 0; }
+SPH_INLINE bool sph_has_mirrors(const sph_config *c, uint32_t k) /* on axis k */
+{
+    return SPH_HAS_MIRRORS && (SPH_IS(c->face[k][0], SYMMETRY) || SPH_IS(c->face[k][0], MIRROR_NO_SLIP) ||
+                               SPH_IS(c->face[k][1], SYMMETRY) || SPH_IS(c->face[k][1], MIRROR_NO_SLIP));
+}
 SPH_INLINE bool sph_filters(const sph_config *c) { return SPH_WITH_SHEPARD && c->shepard_every != 0; }
 
 SPH_INLINE bool sph_has_solids(const sph_config *c) { return SPH_WITH_SOLID && c->solid != SPH_NO_SOLID; }
+/* predictor-corrector, fluids: the change of the rate of density is foreseen (kick.h) */
+SPH_INLINE bool sph_foresees(const sph_config *c)
+{
+    const bool only = SPH_INTEGRATORS_IN == 1 << SPH_PREDICTOR_CORRECTOR;
+    return (only || SPH_IS(c->integrator, PREDICTOR_CORRECTOR)) && !sph_has_solids(c);
+}
 SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->solid == SPH_TOTAL; }
 SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
@@ -249,6 +265,8 @@ SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set
 {
     return sim->material + (s - sim->set);
 }
+/* whether a set of ghosts has a density that goes by continuity */
+SPH_INLINE bool sph_is_compressible(const sph_set *s) { return SPH_WITH_WALL_GHOST && s->compressible; }
 SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */
@@ -350,7 +368,7 @@ SPH_INLINE uint32_t sph_source_id(const sph_sim *sim, uint32_t i)
     return sim->buf[sim->src].id[0][sph_source_index(sim)[i]];
 }
 
-/* whether a wall group is gone, and how fast it moves along an axis (m/s), at the end of the step under way */
+/* whether a wall group is gone, and how fast it moves along an axis (m/s), at the moment of the stage under way */
 SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)
 {
     return SPH_HAS_GROUPS && sim->next.group[s->group].removed;
@@ -362,14 +380,27 @@ SPH_INLINE uint32_t sph_held(const sph_sim *sim, const sph_set *s)
         return 0;
     return sph_material_of(sim, s)->held;
 }
-SPH_INLINE double sph_wall_velocity(const sph_sim *sim, const sph_set *s, uint32_t axis)
-{
-    return SPH_HAS_GROUPS ? sim->next.group[s->group].vel[axis] : 0;
-}
-/* its displacement, quanta */
+/* whether sums are of rates in the middle of the step; whether they are of rates, of forces: of both, where an
+   integrator has one sweep for them */
+SPH_INLINE bool sph_in_middle(const sph_sim *sim) { return SPH_HAS_RATES_FIRST && sim->middle; }
+SPH_INLINE bool sph_sums_rates(const sph_sim *sim) { return !SPH_HAS_RATES_FIRST || sim->middle || !sim->stage->middle; }
+SPH_INLINE bool sph_sums_forces(const sph_sim *sim) { return !sph_in_middle(sim); }
+
+/* displacement of a group, quanta; and how far it goes in this step until the stage's moment */
 SPH_INLINE sph_pos sph_wall_moved(const sph_sim *sim, const sph_set *s, uint32_t axis)
 {
     return SPH_HAS_GROUPS ? sim->next.group[s->group].moved[axis] : 0;
+}
+SPH_INLINE int64_t sph_wall_step(const sph_sim *sim, const sph_set *s, uint32_t axis)
+{
+    return SPH_HAS_GROUPS ? (int64_t)sph_wall_moved(sim, s, axis) - sim->now.group[s->group].moved[axis] : 0;
+}
+/* its velocity: in the middle of a step that by which it goes from the step's beginning to its end */
+SPH_INLINE double sph_wall_velocity(const sph_sim *sim, const sph_set *s, uint32_t axis)
+{
+    if (SPH_HAS_GROUPS && sph_in_middle(sim))
+        return (double)sph_wall_step(sim, s, axis) * sim->grid.quantum / sim->dt;
+    return SPH_HAS_GROUPS ? sim->next.group[s->group].vel[axis] : 0;
 }
 
 /* cell of a position along axis k; the position must be inside the domain */

@@ -6,63 +6,111 @@
 
 #include "motion.h"
 
-/* v = damping (v + step a) of a run of one set, along the axes on which it is free; a less what it was in src if
-   `less_old` */
+/* A mirror face that turned the velocity of particle i along axis k at the sort turned the frame in which the particle
+   was accelerated: -1; else 1. `ahead`: what its velocity has been given since of the old acceleration, s. */
+SPH_INLINE sph_real sph_turn(const sph_sim *sim, uint32_t k, uint32_t i, const sph_move *m, sph_real ahead)
+{
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const uint32_t from = b->id[0][i];
+    const sph_real a = o->acc[k][from], v = (o->vel[k][from] + a * m->kick) * m->damping; /* as in move.c */
+    return b->vel[k][i] == v + ahead * a ? 1 : -1;
+}
+
+/* v = v + step a with the acceleration a of the step's beginning, along the axes on which a run of one set is free; on
+   others it moves as it is told: velocities of a step's middle become those of its end, to second order */
+SPH_INLINE void sph_foresee_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step)
+{
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const uint32_t held = sph_held(sim, set), *at = b->id[0];
+    const sph_move m = SPH_HAS_MIRRORS ? sph_stage_move(sim) : (sph_move){0};
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        sph_real *v = b->vel[k];
+        const sph_real *old = o->acc[k];
+        const bool free = !(held >> k & 1), mirrors = free && sph_has_mirrors(&sim->cfg, k);
+        for (uint32_t i = first; i < last && !free; i++)
+            v[i] = (sph_real)sim->next.group[set->group].vel[k];
+        for (uint32_t i = first; i < last && mirrors; i++)
+            v[i] = v[i] + sph_turn(sim, k, i, &m, 0) * (step * old[at[i]]);
+        for (uint32_t i = first; i < last && free && !mirrors; i++)
+            v[i] = v[i] + step * old[at[i]];
+    }
+}
+
+/* v = damping (v + step (times a - a_o)) of a run of one set, along the axes on which it is free, with the acceleration
+   a_o of the step's beginning, of which v had `ahead` (s) after the sort's share */
 SPH_INLINE void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step,
-                             bool less_old)
+                             sph_real times, sph_real ahead)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, set), *at = b->id[0];
     const sph_real g = (sph_real)sim->cfg.damping;
-    SPH_UNROLL
+    const sph_move m = SPH_HAS_MIRRORS ? sph_stage_move(sim) : (sph_move){0};
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         sph_real *v = b->vel[k];
         const sph_real *a = b->acc[k], *old = o->acc[k];
-        for (uint32_t i = first; i < last && !(held >> k & 1); i++)
-            v[i] = g * (v[i] + step * (less_old ? a[i] - old[at[i]] : a[i]));
+        const bool free = !(held >> k & 1), mirrors = free && sph_has_mirrors(&sim->cfg, k);
+        for (uint32_t i = first; i < last && mirrors; i++)
+            v[i] = g * (v[i] + step * (times * a[i] - sph_turn(sim, k, i, &m, ahead) * old[at[i]]));
+        for (uint32_t i = first; i < last && free && !mirrors; i++)
+            v[i] = g * (v[i] + step * (times * a[i] - old[at[i]]));
     }
 }
 
-/* predictor-corrector: v = damping (v_p + dt/2 (a - a_o)), rho = rho_p + dt/2 (drho - drho_o)  (Gray 2001 eqs 2.28,
-   2.29) */
+/* Predictor-corrector: rho = rho_o + dt/2 (drho_o + drho) and v = damping (v_p + dt/2 (a - a_o))  (Gray 2001 eqs 2.28,
+   2.29). Where the rise e of the rate is foreseen, the predicted density was rho_o + dt drho_o + dt (dt/dt_o) e_o, of
+   third order, and e = (drho - drho_o)/2. On an oscillation w that multiplies the amplitude by 1 - (w dt)^4/8 a step
+   instead of 1 + (w dt)^4/4: sound of the shortest waves dies away instead of growing (factors.c). */
 SPH_INLINE void sph_correct(const sph_sim *sim, sph_span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const sph_real half = (sph_real)sim->dt * (sph_real)0.5, *rate = b->drho[0], *old = o->drho[0];
+    const bool foresees = !sph_has_solids(&sim->cfg);
+    const sph_real foresight = foresees ? sph_stage_move(sim).foresight : 0;
     const uint32_t *at = b->id[0];
     sph_real *rho = b->rho[0];
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(b->set[0], i, s.last);
         const sph_set *set = &sim->set[b->set[0][i]];
-        const bool body = sph_is_body(set);
-        for (uint32_t j = i; j < e && (body || set->compressible); j++)
+        const bool body = sph_is_body(set), evolves = body || sph_is_compressible(set);
+        for (uint32_t j = i; j < e && evolves && !foresees; j++)
             rho[j] = rho[j] + half * (rate[j] - old[at[j]]);
+        for (uint32_t j = i; j < e && evolves && foresees; j++) {
+            const sph_real rise = rate[j] - old[at[j]];
+            rho[j] = rho[j] + (half * rise - foresight * o->rise[0][at[j]]);
+            b->rise[0][j] = rise * (sph_real)0.5;
+        }
         if (body)
-            sph_kick_run(sim, set, i, e, half, true);
+            sph_kick_run(sim, set, i, e, half, 1, 0);
     }
 }
 
-/* v = damping (v + step a): kick-drift-kick by half a step, leap-frog by a whole one, with the new acceleration */
-SPH_INLINE void sph_kick(const sph_sim *sim, sph_span s, sph_real step)
+/* v = damping (v + step (times a - a_o)): kick-drift-kick by half a step, from the velocity that was foreseen;
+   leap-frog by a whole one, from that of the middle */
+SPH_INLINE void sph_kick(const sph_sim *sim, sph_span s, sph_real times)
 {
+    const sph_real half = (sph_real)sim->dt * (sph_real)0.5;
     const uint8_t *sets = sim->buf[sim->dst].set[0];
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(sets, i, s.last);
         if (sph_is_body(&sim->set[sets[i]]))
-            sph_kick_run(sim, &sim->set[sets[i]], i, e, step, false);
+            sph_kick_run(sim, &sim->set[sets[i]], i, e, half, times, half);
     }
 }
 
-/* Leap-frog (Powell 2012 algorithm 1.1) and kick-drift-kick: the density goes a whole step with the rates of the
-   half-step velocity at the new positions, like a position; then come the forces. (Taking the rates of the velocity
-   at the ends, with one sweep, makes sound waves grow.) */
-SPH_INLINE void sph_density_whole(const sph_sim *sim, sph_span s)
+/* Kick-drift-kick and leap-frog (Powell 2012 algorithm 1.1), between the rates of a step's middle and the forces at its
+   end: density goes a whole step from the step's beginning, and velocities, those of the middle so far, are foreseen. */
+SPH_INLINE void sph_to_the_end(const sph_sim *sim, sph_span s)
 {
-    const sph_buffer *b = &sim->buf[sim->dst];
-    for (uint32_t i = s.first; i < s.last; i++) {
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const sph_real dt = (sph_real)sim->dt;
+    const uint32_t *at = b->id[0];
+    for (uint32_t i = s.first, e; i < s.last; i = e) {
+        e = sph_run_end(b->set[0], i, s.last);
         const sph_set *set = &sim->set[b->set[0][i]];
-        if (sph_is_body(set) || set->compressible)
-            b->rho[0][i] += (sph_real)sim->dt * b->drho[0][i];
+        for (uint32_t j = i; j < e && (sph_is_body(set) || sph_is_compressible(set)); j++)
+            b->rho[0][j] = o->rho[0][at[j]] + dt * b->drho[0][j];
+        if (sph_is_body(set))
+            sph_foresee_run(sim, set, i, e, dt * (sph_real)0.5);
     }
 }
 

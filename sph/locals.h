@@ -18,9 +18,10 @@ void sph_grow_damage(const sph_sim *sim, sph_span s);
 #define sph_cross_walls SPH_NAME(cross_walls_)
 void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t);
 
-/* groups.c: displaces the groups that move to where they are at time t, and removes those whose time has come */
+/* groups.c: displaces the groups that move to where they are at time t, and removes those whose time has come, unless
+   they stand there already (not `moves`) */
 #define sph_move_groups SPH_NAME(move_groups_)
-sph_status sph_move_groups(sph_sim *sim, double t);
+sph_status sph_move_groups(sph_sim *sim, double t, bool moves);
 
 /* powers.c: sums of a chunk; then the books of a step, and of the first forces */
 #define sph_sum_powers SPH_NAME(sum_powers_)

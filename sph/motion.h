@@ -19,9 +19,10 @@ int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v);
 
 /* ---- move.c: a block of particles of buffer src ---- */
 
-/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho */
+/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho, and + foresight
+   rise in the predictor-corrector */
 typedef struct sph_move {
-    sph_real drift, bend, kick, rate, damping;
+    sph_real drift, bend, kick, rate, foresight, damping;
 } sph_move;
 #define sph_stage_move SPH_NAME(stage_move_)
 sph_move sph_stage_move(const sph_sim *sim);
@@ -39,8 +40,6 @@ bool sph_move_block(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t 
 void sph_carry_fields(sph_sim *sim, sph_span s);   /* after the sort: from src, evolved by the stage's share of dt */
 #define sph_correct_fields SPH_NAME(correct_fields_)
 void sph_correct_fields(sph_sim *sim, sph_span s); /* + dt/2 (new rate - rate in src) */
-#define sph_evolve_fields SPH_NAME(evolve_fields_)
-void sph_evolve_fields(sph_sim *sim, sph_span s);  /* + dt rate */
 #define sph_retake_fields SPH_NAME(retake_fields_)
 void sph_retake_fields(sph_sim *sim, sph_span s);  /* from src again, + dt new rate */
 /* a particle of b is displaced by d quanta along axis k otherwise than by the sort */

@@ -3,11 +3,22 @@
    their velocity and acceleration, walls and held sets as their group is told; then the faces of the domain. */
 #include "motion.h"
 
+/* What the predicted density takes of `rise`: dt (dt/last dt). Two dt at most: where a very short step comes before a
+   long one, its rise is noise. */
+static sph_real foresight(sph_real dt, sph_real last) { return dt < 2 * last ? dt * (dt / last) : 2 * dt; }
+
 sph_move sph_stage_move(const sph_sim *sim)
 {
     const sph_stage *g = sim->stage;
     const sph_real dt = (sph_real)sim->dt, damping = g->damps ? (sph_real)sim->cfg.damping : 1;
-    return (sph_move){g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, damping};
+    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping};
+    if (sph_foresees(&sim->cfg))
+        m.foresight = g->rate * foresight(dt, (sph_real)sim->now.dt_last);
+    if (g->resumes && SPH_IS(sim->cfg.integrator, LEAP_FROG)) {
+        m.kick = (sph_real)((sim->dt - sim->now.dt_last) * 0.5);
+        m.bend = dt * m.kick;
+    }
+    return m;
 }
 
 /* displaces particles that forces move, i..i+n of src; returns false if one moves too far, not finitely, or out of
@@ -39,20 +50,16 @@ SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, u
                 v_store(o->vel[k] + at + j, (v + f * a->kick) * a->damping);
         }
     }
-    if (all)
-        for (uint32_t j = 0; j < n; j += SPH_W)
-            v_store(o->rho + at + j, v_load(b->rho[0] + i + j) + v_load(b->drho[0] + i + j) * a->rate);
+    const sph_real *const rise = sph_foresees(&sim->cfg) ? b->rise[0] + i : NULL;
+    for (uint32_t j = 0; all && j < n; j += SPH_W) {
+        const vreal rho = v_load(b->rho[0] + i + j) + v_load(b->drho[0] + i + j) * a->rate;
+        v_store(o->rho + at + j, rise ? rho + v_load(rise + j) * a->foresight : rho);
+    }
     sph_int lanes[SPH_W], any = 0;
     v_store_int(lanes, bad);
     for (int l = 0; l < SPH_W; l++)
         any |= lanes[l];
     return any == 0;
-}
-
-/* how far a wall goes in this step, quanta */
-static int64_t wall_step(const sph_sim *sim, const sph_set *s, uint32_t k)
-{
-    return (int64_t)sph_wall_moved(sim, s, k) - sim->now.group[s->group].moved[k];
 }
 
 /* wall particles go where their group goes; their density only as its rate says */
@@ -62,16 +69,20 @@ static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, 
     const bool removed = sph_wall_removed(sim, s);
     bool fine = !removed;
     const sph_buffer *b = &sim->buf[sim->src];
-    /* where a step has two sorts, walls are at its end in both: they move in the first */
-    const bool moves = SPH_WITH_MOVING_WALLS && sim->src == sim->cur;
+    /* the first sort of two is at the step's beginning, where they are */
+    const bool moves = SPH_WITH_MOVING_WALLS && sim->stage->at > 0;
     for (uint32_t j = 0; j < n; j++) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             /* less than a domain's length (sph_move_groups), though the difference alone may not fit into a position */
-            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + (moves ? wall_step(sim, s, k) : 0));
+            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + (moves ? sph_wall_step(sim, s, k) : 0));
             fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->grid.extent[k]);
             o->vel[k][at + j] = b->vel[k][i + j];
         }
-        o->rho[at + j] = s->compressible ? b->rho[0][i + j] + b->drho[0][i + j] * a->rate : b->rho[0][i + j];
+        o->rho[at + j] = b->rho[0][i + j];
+        if (sph_is_compressible(s))
+            o->rho[at + j] += b->drho[0][i + j] * a->rate;
+        if (sph_is_compressible(s) && sph_foresees(&sim->cfg))
+            o->rho[at + j] += b->rise[0][i + j] * a->foresight;
         o->gone[at + j] = removed;
     }
     return fine;
@@ -83,11 +94,11 @@ static bool hold_bodies(const sph_sim *sim, const sph_set *s, uint32_t i, uint32
 {
     const sph_buffer *b = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, s);
-    const bool moves = sim->src == sim->cur; /* as in move_walls */
+    const bool moves = sim->stage->at > 0; /* as in move_walls */
     bool fine = true;
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t j = 0; j < n && held >> k & 1; j++) {
-            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + (moves ? wall_step(sim, s, k) : 0));
+            o->pos[k][at + j] = (sph_pos)(b->pos[k][i + j] + (moves ? sph_wall_step(sim, s, k) : 0));
             o->vel[k][at + j] = (sph_real)sph_wall_velocity(sim, s, k);
             fine &= (o->pos[k][at + j] >= 0) & (o->pos[k][at + j] < sim->grid.extent[k]);
         }

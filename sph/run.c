@@ -39,8 +39,9 @@ static sph_status begin_prime(sph_sim *sim, uint32_t chunk_cells)
     if (sim->now.count == 0)
         return sph_error(sim, SPH_BAD_STATE, "step", "after particles were added", 0, SPH_NO_PARTICLE);
     sim->next = sim->now;
+    sim->next.dt_last = 0; /* whatever remembers the step before starts anew */
     sim->dt = 0;
-    sph_status st = sph_prepare(sim, sim->now.time);
+    sph_status st = sph_prepare(sim, sph_integrator_of(SPH_NO_INTEGRATOR));
     return st ? st : load_program(sim, sph_integrator_of(SPH_NO_INTEGRATOR));
 }
 
@@ -53,9 +54,8 @@ static sph_status begin_step(sph_sim *sim, uint32_t chunk_cells)
         return st;
     sim->next.step++;
     sim->next.dt_last = sim->dt;
-    if ((st = sph_prepare(sim, sim->next.time)) != SPH_OK)
-        return st;
-    return load_program(sim, sph_integrator_of(sim->cfg.integrator));
+    const sph_integrator *g = sph_integrator_of(sim->cfg.integrator);
+    return (st = sph_prepare(sim, g)) != SPH_OK ? st : load_program(sim, g);
 }
 
 typedef struct job {

@@ -25,7 +25,7 @@ SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const
     int r = sph_enforce_faces(sim, q, v);
     if (r == 2) {
         t->left++;
-        if (sim->cfg.on_leave == SPH_FAIL)
+        if (sim->cfg.on_leave == SPH_FAIL || !sph_is_body(&sim->set[b->set[0][i]]))
             sph_fail_note(t, SPH_OUT_OF_DOMAIN, sph_source_id(sim, i), (double)q[0] * sim->grid.quantum);
         else
             b->set[0][i] = SPH_DEAD;
@@ -38,6 +38,21 @@ SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const
     }
 }
 
+/* a wall goes on from the middle of the step to its end */
+SPH_INLINE void sph_advance_wall(const sph_sim *sim, const sph_set *set, uint32_t i, sph_thread *t)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const double none[SPH_DIM] = {0};
+    sph_pos to[SPH_DIM];
+    if (sph_wall_removed(sim, set))
+        b->set[0][i] = SPH_DEAD;
+    if (!SPH_WITH_MOVING_WALLS || sph_wall_removed(sim, set))
+        return;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        to[k] = (sph_pos)(sim->buf[sim->src].pos[k][b->id[0][i]] + sph_wall_step(sim, set, k));
+    sph_place(sim, i, none, to, t);
+}
+
 /* the second halves of the Runge-Kutta forms, as printed: 3.86-3.87, and 3.92 */
 SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
 {
@@ -46,20 +61,23 @@ SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
     const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5;
     const uint32_t p = b->id[0][i];
     const sph_set *set = &sim->set[b->set[0][i]];
-    if (sph_is_body(set) || set->compressible) {
+    if (sph_is_body(set) || sph_is_compressible(set)) {
         const sph_real r = o->rho[0][p], d = b->drho[0][i];
         const sph_real mid = r + half * d;
         b->rho[0][i] = momentum ? r + dt * d : 2 * mid - r;
     }
-    if (!sph_is_body(set))
+    if (!sph_is_body(set)) {
+        sph_advance_wall(sim, set, i, t);
         return;
+    }
     double move[SPH_DIM];
     sph_pos from[SPH_DIM];
     const uint32_t held = sph_held(sim, set);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        if (held >> k & 1) { /* where the sort put it */
+        if (held >> k & 1) { /* where its group is by now */
             move[k] = 0;
-            from[k] = b->pos[k][i];
+            from[k] = (sph_pos)(o->pos[k][p] + sph_wall_step(sim, set, k));
+            b->vel[k][i] = (sph_real)sph_wall_velocity(sim, set, k);
             continue;
         }
         const sph_real *beside = sph_drift(b, k);

@@ -35,8 +35,8 @@ void sph_settle(const sph_sim *sim, sph_span s)
         if (set == SPH_DEAD || sph_is_body(&sim->set[set]))
             continue;
         n = n ? n : find_summed(b, summed);
-        for (uint32_t k = 0; k < n; k++) /* walls that are compressible have a rate of density */
-            if (!sim->set[set].compressible || summed[k] != b->drho[0])
+        for (uint32_t k = 0; k < n; k++) /* walls that are compressible have a rate of density, and its rise */
+            if (!sph_is_compressible(&sim->set[set]) || (summed[k] != b->drho[0] && summed[k] != b->rise[0]))
                 memset(summed[k] + i, 0, (e - i) * sizeof(sph_real));
     }
 }

@@ -105,6 +105,8 @@ sph_status sph_setup_append(sph_sim *sim, uint32_t set, const double *x, const d
         b->damage[0][n] = 0;
     b->rho[0][n] = (sph_real)d;
     b->drho[0][n] = 0;
+    if (b->rise[0])
+        b->rise[0][n] = 0;
     b->id[0][n] = n;
     b->set[0][n] = (uint8_t)set;
     sim->now.count = n + 1;

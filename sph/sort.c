@@ -250,6 +250,7 @@ void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bo
     sim->src_count = count;
     sim->src_table = table;
     sim->stage = stage;
+    sim->middle = stage->middle;
     sim->ranges = 1;
     if (table) {
         for (uint32_t s = 0; s <= sim->grid.slabs; s++)

@@ -159,26 +159,6 @@ static void jaumann(const sph_real (*l)[SPH_DIM], const sph_real (*s)[SPH_DIM], 
         }
 }
 
-/* Kick-drift-kick and leap-frog take rates once in a step dt, from the velocity of its middle at the places of its
-   end. What stands here turns them into those of the middle to second order, so that finite strains and turns are
-   followed to dt^2: L = G + dt/2 G G of the gradient G found, and S half a step on where S turns. */
-static void to_the_middle(sph_real dt, sph_real mu, sph_real (*l)[SPH_DIM], sph_real (*s)[SPH_DIM])
-{
-    sph_real g[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM];
-    memcpy(g, l, sizeof g);
-    for (uint32_t k = 0; k < SPH_DIM; k++)
-        for (uint32_t c = 0; c < SPH_DIM; c++) {
-            sph_real sum = 0;
-            for (uint32_t m = 0; m < SPH_DIM; m++)
-                sum += g[k][m] * g[m][c];
-            l[k][c] += (sph_real)0.5 * dt * sum;
-        }
-    jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, mu, rate);
-    for (uint32_t k = 0; k < SPH_DIM; k++)
-        for (uint32_t c = 0; c < SPH_DIM; c++)
-            s[k][c] += (sph_real)0.5 * dt * rate[k][c];
-}
-
 /* L of a home from its sums (raw), with corrected gradients or without */
 static void velocity_gradient(const sph_sim *sim, uint32_t i, const sph_real *raw, sph_real rho, bool corrects,
                               sph_real (*l)[SPH_DIM])
@@ -200,21 +180,17 @@ sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, co
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     const bool solid = sph_is_solid(set);
-    const bool middle = SPH_HAS_RATES_FIRST && solid && sim->stage->middle;
-    const sph_real dt = (sph_real)sim->dt;
     sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM], trace = 0;
     velocity_gradient(sim, i, raw, rho, sph_corrects(&sim->cfg) && solid, l);
     if (solid) {
         const sph_real mu = sph_material_of(sim, set)->shear_r;
         tensor_of(b, i, s);
-        if (middle)
-            to_the_middle(dt, mu, l, s);
         jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, mu, rate);
         for (uint32_t k = 0; k < SPH_NS; k++)
             b->dstress[k][i] = rate[kept_at[k][0]][kept_at[k][1]];
     }
     for (uint32_t k = 0; k < SPH_DIM; k++)
         trace += l[k][k];
-    return middle ? (sph_real)0.5 * dt * trace * trace - trace : -trace; /* the density half a step on, too */
+    return -trace;
 }
 #endif

@@ -19,7 +19,11 @@ typedef struct tile_choice {
     bool wall, is_image;        /* velocities of a wall's group; seen through an image */
 } tile_choice;
 
-/* Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by
+/* In the middle of a step, at whose end the particles stand, they are seen half a step's way back. A pair that is within
+   a support there but not at the end may be missed, if it stands more than a cell apart: that is within dt |v_ij|/2 of
+   the kernel's edge, where its slope is of second order or higher in that distance. An image goes the image's way.
+
+   Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by
    the next run or by sph_close_tile. */
 SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copied, tile_choice c)
 {
@@ -31,7 +35,8 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
     const sph_pos *pos[SPH_DIM];
     const sph_real *vel[SPH_DIM];
     vint sign[SPH_DIM], shift[SPH_DIM];
-    vreal flip[SPH_DIM], group[SPH_DIM];
+    vreal flip[SPH_DIM], group[SPH_DIM], back[SPH_DIM];
+    const sph_real half = (sph_real)(sph_in_middle(sim) ? sim->dt * 0.5 : 0);
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         pos[k] = r->b->pos[k] + s;
@@ -39,6 +44,7 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
         sign[k] = v_set_int(c.is_image ? r->im->sign[k] : 1);
         shift[k] = v_set_int(c.is_image ? r->im->shift[k] - r->origin[k] : r->origin[k]);
         flip[k] = v_set(c.is_image ? r->im->flip[k] : 1);
+        back[k] = v_set(c.is_image ? half * (sph_real)r->im->sign[k] : half);
         group[k] = v_set(c.wall ? (sph_real)sph_wall_velocity(sim, r->set, k) : 0);
     }
     for (uint32_t from = 0; from < n; from += copied)
@@ -49,7 +55,8 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
             for (uint32_t k = 0; k < SPH_DIM; k++) {
                 const vint q = v_load_int(pos[k] + j);
                 const vreal v = c.wall ? group[k] : v_load(vel[k] + j);
-                v_store(t->x[k] + at + j, v_from_int(c.is_image ? q * sign[k] + shift[k] : q - shift[k]) * quantum);
+                const vreal x = v_from_int(c.is_image ? q * sign[k] + shift[k] : q - shift[k]) * quantum;
+                v_store(t->x[k] + at + j, SPH_HAS_RATES_FIRST ? x - back[k] * v : x);
                 v_store(t->v[k] + at + j, c.is_image ? v * flip[k] : v);
             }
             const vreal e = v_load(excess + j);

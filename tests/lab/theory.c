@@ -19,11 +19,12 @@
    or, with summed density, x) and v:
      q' = A v,   v' = B q - D v,   D = alpha h c0 d
    and a step, as kick.h and move.c do it, is
-     kick-drift-kick, leap-frog   q += dt A w, w += dt (B q - D w) of the velocity w at half steps: both are the same
-     predictor-corrector          q_p = q + dt q'_o, v_p = v + dt a_o, rates (q', a) of these, q = q_p + dt/2 (q' -
-                                  q'_o), v alike;
-                                  the rates are kept: one evaluation a step. Summed: x = x + dt v + dt^2/2 a_o is not
-                                  corrected
+     kick-drift-kick, leap-frog   w = v + dt/2 a_o, q += dt A w, a = B q - D (w + dt/2 a_o), v = w + dt/2 a: both are the
+                                  same
+     predictor-corrector          q_p = q + dt q'_o, v_p = v + dt a_o, rates (q', a) of these, q = q + dt/2 (q' + q'_o),
+                                  v alike;
+                                  the rates are kept: one evaluation a step. Water: q_p = q + dt (q'_o + e_o), e = (q' -
+                                  q'_o)/2, which is kept too. Summed: x = x + dt v + dt^2/2 a_o is not corrected
      Runge-Kutta, both forms      1 + z + z^2/2, the midpoint rule
    The matrix of a step is squared 22 times: the 2^22nd root of its norm is its largest eigenvalue to 1e-5. */
 #define SPH_DIM 2
@@ -148,7 +149,7 @@ double theory_growth(const theory_box *b)
 
 /* ---- steps ---- */
 
-enum { Q = 4, V = 2, ONE = Q + V, SIZE = 2 * ONE };
+enum { Q = 4, V = 2, ONE = Q + V, SIZE = 2 * ONE + 1 };
 typedef double matrix[SIZE][SIZE];
 
 /* y' = f y for y = (q, v) */
@@ -177,14 +178,33 @@ static void rates(const theory_step *t, const sums *s, double f[ONE][ONE])
     }
 }
 
+/* state (y, y'): of y' only the acceleration is kept */
 static void leap(double f[ONE][ONE], double dt, matrix g)
 {
-    for (int i = 0; i < ONE; i++)
-        for (int j = 0; j < ONE; j++) {
-            g[i][j] = (i == j) + dt * f[i][j];
-            for (int q = 0; q < Q && i >= Q; q++)
-                g[i][j] += dt * dt * f[i][q] * f[q][j];
+    for (int i = 0; i < SIZE; i++) {
+        double y[ONE], w[V], *v = y + Q;
+        for (int k = 0; k < ONE; k++)
+            y[k] = i == k;
+        for (int k = 0; k < V; k++)
+            w[k] = v[k] + (i == ONE + Q + k ? 0.5 * dt : 0);
+        for (int q = 0; q < Q; q++)
+            for (int k = 0; k < V; k++)
+                y[q] += dt * f[q][Q + k] * w[k];
+        for (int k = 0; k < V; k++) { /* for viscosity, the velocity of the end */
+            double a = 0;
+            for (int m = 0; m < Q; m++)
+                a += f[Q + k][m] * y[m];
+            for (int m = 0; m < V; m++)
+                a += f[Q + k][Q + m] * (w[m] + (i == ONE + Q + m ? 0.5 * dt : 0));
+            g[ONE + Q + k][i] = a;
+            g[Q + k][i] = w[k] + 0.5 * dt * a;
         }
+        for (int q = 0; q < Q; q++) {
+            g[q][i] = y[q];
+            g[ONE + q][i] = 0;
+        }
+        g[SIZE - 1][i] = 0;
+    }
 }
 
 static void midpoint(double f[ONE][ONE], double dt, matrix g)
@@ -198,15 +218,15 @@ static void midpoint(double f[ONE][ONE], double dt, matrix g)
         }
 }
 
-/* state (y, y') */
-static void predict_correct(double f[ONE][ONE], double dt, bool summed, matrix g)
+/* state (y, y', e); `foresees`: e is kept */
+static void predict_correct(double f[ONE][ONE], double dt, bool summed, bool foresees, matrix g)
 {
     for (int i = 0; i < SIZE; i++) {
         double y[ONE], old[ONE], p[ONE];
         for (int k = 0; k < ONE; k++) {
             y[k] = i == k;
             old[k] = i == ONE + k;
-            p[k] = y[k] + dt * old[k];
+            p[k] = y[k] + dt * old[k] + (k == 0 && foresees && i == SIZE - 1 ? dt : 0);
         }
         for (int k = 0; k < 2 && summed; k++) /* positions follow the velocity itself */
             p[k] = y[k] + dt * y[Q + k] + 0.5 * dt * dt * old[Q + k];
@@ -215,7 +235,9 @@ static void predict_correct(double f[ONE][ONE], double dt, bool summed, matrix g
             for (int m = 0; m < ONE; m++)
                 now += f[k][m] * p[m];
             g[ONE + k][i] = now;
-            g[k][i] = summed && k < 2 ? p[k] : p[k] + 0.5 * dt * (now - old[k]);
+            g[k][i] = summed && k < 2 ? p[k] : y[k] + 0.5 * dt * (now + old[k]);
+            if (k == 0)
+                g[SIZE - 1][i] = foresees ? 0.5 * (now - old[k]) : 0;
         }
     }
 }
@@ -258,10 +280,11 @@ double theory_factor(const theory_step *t, double dt)
             double f[ONE][ONE];
             matrix g;
             rates(t, &s, f);
-            const bool keeps = t->integrator == SPH_PREDICTOR_CORRECTOR;
-            if (keeps)
-                predict_correct(f, dt, t->medium == THEORY_SUMMED, g);
-            else if (t->integrator == SPH_KICK_DRIFT_KICK || t->integrator == SPH_LEAP_FROG)
+            const bool leaps = t->integrator == SPH_KICK_DRIFT_KICK || t->integrator == SPH_LEAP_FROG;
+            const bool keeps = leaps || t->integrator == SPH_PREDICTOR_CORRECTOR;
+            if (!leaps && keeps)
+                predict_correct(f, dt, t->medium == THEORY_SUMMED, t->medium == THEORY_WATER, g);
+            else if (leaps)
                 leap(f, dt, g);
             else
                 midpoint(f, dt, g);
