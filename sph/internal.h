@@ -260,6 +260,9 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
 /* the stress after damage (xx, yy, zz, xy, xz, yz; Pa, tension positive) and D of a particle of a buffer, in double */
 #define sph_stress_of SPH_NAME(stress_of_)
 double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress);
+/* the energy of compression that a particle holds (J/kg): of the pressure that acts, after damage */
+#define sph_internal_of SPH_NAME(internal_of_)
+double sph_internal_of(const sph_sim *sim, const sph_buffer *b, uint32_t i);
 #define sph_hash_buffer SPH_NAME(hash_buffer_)
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n);
 
@@ -303,10 +306,15 @@ sph_sim *sph_lay_out_arena(const sph_config *c, const sph_grid *g, void *arena);
 #define sph_list_arena SPH_NAME(list_arena_)
 void sph_list_arena(const sph_config *c, const sph_grid *g, sph_arena_fn *fn, void *ctx);
 
+/* whether a set's pressure is held at 0 or above */
+SPH_INLINE bool sph_has_floor(const sph_sim *sim, const sph_set *s)
+{
+    return sim->cfg.pressure_floor && !sph_is_solid(s);
+}
 /* pressure (Pa) of a set's particle at relative density excess d, and the excess at a pressure (eos.h) */
 SPH_INLINE double sph_pressure(const sph_sim *sim, const sph_set *s, double d)
 {
-    return sph_eos_pressure(s->eos, (double)s->b_r, d, sim->cfg.pressure_floor && !sph_is_solid(s));
+    return sph_eos_pressure(s->eos, (double)s->b_r, d, sph_has_floor(sim, s));
 }
 SPH_INLINE double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
 {

@@ -21,13 +21,26 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
     return sph_raise(&sim->report, &sim->cfg.port, &(sph_report){s, what, allowed, pass, value, particle});
 }
 
+static double damage_of(const sph_buffer *b, uint32_t i)
+{
+    if (!SPH_HAS_DAMAGE || !b->damage[0])
+        return 0;
+    const double root = (double)b->damage[0][i];
+    return SPH_DIM == 3 ? root * root * root : root * root;
+}
+
+double sph_internal_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const sph_set *s = &sim->set[b->set[0][i]];
+    const double d = (double)b->rho[0][i];
+    const double e = sph_eos_energy(s->eos, (double)s->b_r, s->rho0, d, sph_has_floor(sim, s));
+    return sph_pressure(sim, s, d) < 0 ? e * (1 - damage_of(b, i)) : e;
+}
+
 double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress)
 {
-    double p = sph_pressure(sim, &sim->set[b->set[0][i]], (double)b->rho[0][i]), damage = 0, d[6] = {0};
-    if (SPH_HAS_DAMAGE && b->damage[0]) {
-        const double root = (double)b->damage[0][i];
-        damage = SPH_DIM == 3 ? root * root * root : root * root;
-    }
+    double p = sph_pressure(sim, &sim->set[b->set[0][i]], (double)b->rho[0][i]), d[6] = {0};
+    const double damage = damage_of(b, i);
     /* the deviator: what the state keeps, and what follows from a trace of 0 */
     for (uint32_t k = 0; k < SPH_NS; k++)
         d[SPH_DIM > 1 && k > 1 ? k + 1 : k] = (double)b->stress[k][i] * (1 - damage);

@@ -35,7 +35,7 @@ static void add_particle_totals(const sph_sim *sim, const sph_buffer *b, uint32_
     o->angular[2] += m * (x[0] * v[1] - x[1] * v[0]);
     o->mass += m;
     o->kinetic += 0.5 * m * v2;
-    o->internal += m * sph_eos_energy(s->eos, (double)s->b_r, s->rho0, (double)b->rho[0][i]);
+    o->internal += m * sph_internal_of(sim, b, i);
     if (SPH_WITH_SOLID && sph_is_solid(s))
         add_solid_totals(sim, b, i, o);
     o->max_speed = v2 > o->max_speed ? v2 : o->max_speed;
