@@ -9,12 +9,15 @@
 
 #include "continuity.h"
 
-/* what the home's own energy gains where the density goes as continuity.h says, or is summed: p/rho^2 of its rate */
+/* What the home's own energy gains where the density goes as continuity.h says: p/rho^2 of its rate. Where it is summed,
+   what this home's motion makes both of a pair gain: images then move as their places do, not as their velocities say. */
 SPH_INLINE vreal sph_pressure_gain(const sph_choice *c, const sph_factors *f, const sph_home *h, const sph_near *p)
 {
     const bool weak = sph_weak_scheme(c->scheme);
+    const vreal own = weak ? h->press * (h->inv_rho * h->inv_rho) : h->press;
+    const vreal other = weak ? p->press * (p->inv_rho * p->inv_rho) : p->press;
     if (c->summed)
-        return (weak ? h->press * (h->inv_rho * h->inv_rho) : h->press) * p->mg * p->vr;
+        return p->wall ? own * p->mg * p->vr : (own + other) * p->mg * sph_dot(h->v, p->dx);
     const vreal gain = (weak ? h->press * h->inv_rho * p->inv_rho : h->press) * p->mg * p->vc;
     if (!SPH_IS(c->scheme, STANDARD_WICK) && !SPH_IS(c->scheme, WEAK_WICK))
         return gain;
