@@ -22,7 +22,7 @@
     /* by id: a particle's flaws are flaw[flaw_start[id] .. flaw_start[id + 1]) */                                    \
     ONE(flaw_start, uint32_t, (size_t)c->max_particles + 1, sph_damages(c), "flaws of a particle")                    \
     ONE(flaw, float, c->max_flaws, sph_damages(c), "flaws") /* thresholds */                                          \
-    /* viscous, wall, diffusion and body-force power of a particle */                                                 \
+    /* POWER_... of a particle, per unit mass */                                                                      \
     MANY(power, sph_real, SPH_POWERS, SPH_ROOM(c), sph_keeps_books(c), "powers for the books")                        \
     ONE(sponge, double, c->max_particles / SPH_LOCAL_CHUNK + 1, c->sponge_rate > 0, "absorbed energy of chunks")      \
     /* SPH_PARTIALS of each chunk */                                                                                  \

@@ -80,25 +80,31 @@ static void put_back(sph_sim *sim, const sph_buffer *b, uint32_t i, const sph_se
             b->vel[k][i] -= (sph_real)(vn * s->normal[k]);
 }
 
-static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_thread *t)
+static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_thread *t, double *books)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     double depth = 0;
     uint32_t w = inside_wall(sim, b, i, &depth);
     if (w == SPH_MAX_SETS)
         return;
+    const double held = books ? sph_energy_sum(sim, b, i) : 0;
     t->crossed++;
     if (sim->cfg.on_cross == SPH_FAIL)
         sph_fail_note(t, SPH_WALL_CROSSED, b->id[0][i], depth);
     else if (sim->cfg.on_cross == SPH_REMOVE) {
         b->set[0][i] = SPH_DEAD;
         t->removed++;
-    } else
+        if (books)
+            books[JUMP_REMOVED] += held;
+    } else {
         for (int turn = 0; turn < 3 && w != SPH_MAX_SETS; turn++) { /* a corner may need more than one */
             put_back(sim, b, i, &sim->set[w], depth);
             t->put_back += turn == 0;
             w = inside_wall(sim, b, i, &depth);
         }
+        if (books)
+            books[JUMP_PUT_BACK] += held - sph_energy_sum(sim, b, i);
+    }
 }
 
 /* marks the particles that are in the box around a wall's region */
@@ -122,7 +128,7 @@ static void mark_near(const sph_sim *sim, const sph_set *s, sph_span span, uint8
     }
 }
 
-void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t)
+void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t, double *books)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     if (sim->groups == 0 || sim->cfg.on_cross == SPH_IGNORE)
@@ -133,6 +139,6 @@ void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t)
             mark_near(sim, &sim->set[w], s, t->near);
     for (uint32_t i = s.first; i < s.last; i++)
         if (t->near[i - s.first] && b->set[0][i] != SPH_DEAD && sph_is_body(&sim->set[b->set[0][i]]))
-            cross_one(sim, i, t);
+            cross_one(sim, i, t, books);
 }
 #endif

@@ -65,7 +65,7 @@ static sph_real root_of(sph_real x)
     return x > 0 ? (sph_real)sph_pow((double)x, 1.0 / 3) : 0;
 }
 
-void sph_grow_damage(const sph_sim *sim, sph_span s)
+void sph_grow_damage(const sph_sim *sim, sph_span s, double *books)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     const uint32_t *id = b->id[0]; /* the particle's own by now */
@@ -87,7 +87,10 @@ void sph_grow_damage(const sph_sim *sim, sph_span s)
         if (root >= most) /* also without any active flaw */
             continue;
         const sph_real grown = root + (sph_real)(sim->dt * sph_material_of(sim, set)->crack_rate) * (sph_real)active;
+        const double held = books ? sph_energy_of(sim, b, i).elastic + sph_energy_of(sim, b, i).internal : 0;
         b->damage[0][i] = grown < most ? grown : most;
+        if (books)
+            books[JUMP_RELEASED] += held - sph_energy_of(sim, b, i).elastic - sph_energy_of(sim, b, i).internal;
     }
 }
 #endif

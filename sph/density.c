@@ -2,6 +2,7 @@
 /* density.c: density by summation, rho_i = sum m_j W (Gray 2001 eq 2.19), and the Shepard filter, rho_i = sum m_j
    W/sum (m_j/rho_j) W (Wickramarachchi 2009 eq 6.3). Array: tmp, the new density until all have read the old one.
    Cost: a sweep and a local pass. */
+#include "locals.h"
 #include "pair.h"
 
 #if SPH_HAS_FILTERS
@@ -59,16 +60,37 @@ static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, filters_now};
 #endif
 
+/* whether what the filter takes is on the books: not where Runge-Kutta's second stage filters densities that it does
+   not keep */
+static bool books_filter(const sph_sim *sim)
+{
+    return sph_keeps_books(&sim->cfg) && filters_now(sim) && sim->src == sim->cur;
+}
+
 /* the new density becomes the density; in its own pass, because neighbours read the old one */
 static void copy_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     const sph_span s = sph_chunk_span(sim, chunk);
+    const bool books = books_filter(sim);
+    double taken = 0;
     for (uint32_t i = s.first; i < s.last; i++)
-        if (b->set[0][i] != SPH_DEAD && sph_is_body(&sim->set[b->set[0][i]]))
+        if (b->set[0][i] != SPH_DEAD && sph_is_body(&sim->set[b->set[0][i]])) {
+            taken += books ? sph_energy_of(sim, b, i).internal : 0;
             b->rho[0][i] = sim->tmp[i];
+            taken -= books ? sph_energy_of(sim, b, i).internal : 0;
+        }
+    if (books)
+        sph_book_row(sim, chunk)[JUMP_FILTERED] = taken;
     t->work += s.last - s.first;
 }
+static sph_status copy_density_end(sph_sim *sim)
+{
+    if (books_filter(sim))
+        sim->next.filtered += sph_sum_rows(sim, JUMP_FILTERED);
+    return SPH_OK;
+}
 static bool copies_density(const sph_sim *sim) { return filters_now(sim) || sph_sums_density(&sim->cfg); }
-const sph_pass sph_pass_copy_density = {"copy density", sph_local_chunks, copy_density_chunk, NULL, copies_density};
+const sph_pass sph_pass_copy_density = {"copy density", sph_local_chunks, copy_density_chunk, copy_density_end,
+                                       copies_density};
 #endif

@@ -2,6 +2,8 @@
 /* eos.c: the equations of state in double (Gray 2001 eq 2.25): pressure, the density at a pressure, energy. */
 #include "eos.h"
 
+#include "dmath.h"
+
 /* (1 + d)^7 - 1, exact for small d */
 static __attribute__((noinline)) double seventh(double d)
 {
@@ -47,13 +49,27 @@ double sph_eos_excess(uint32_t eos, double scale, double p)
     return d;
 }
 
-double sph_eos_energy(uint32_t eos, double scale, double rho0, double d)
+/* atanh(z) - z = z^3/3 + z^5/5 + ... for |z| <= 1/4, to rounding */
+static double atanh_rest(double z)
 {
-    const double b = scale / rho0, r = 1 + d;
-    switch (eos) {
-    /* c^2 (ln s + 1/s - 1) and c^2 ln s; by series near rest, where they cancel */
-    case SPH_LINEAR: return b * d * d * (0.5 - d * (2.0 / 3 - d * (0.75 - 0.8 * d)));
-    case SPH_ISOTHERMAL: return b * d * (1 - d * (0.5 - d * (1.0 / 3 - 0.25 * d)));
-    default: return b * (r * r * r * r * r * r / 6 + 1 / r - 7.0 / 6);
-    }
+    const double z2 = z * z;
+    double sum = 0;
+    for (int n = 27; n >= 3; n -= 2)
+        sum = sum * z2 + 1.0 / n;
+    return sum * z2 * z;
+}
+
+/* With z = d/(2 + d): ln s = 2 atanh z, and ln s + 1/s - 1 = 2 (atanh z - z + z^2/(1 + z)), whose parts do not cancel
+   near rest. Tait: s^6/6 + 1/s - 7/6 = ((1 + d)^7 - 1 - 7 d)/(6 s). */
+double sph_eos_energy(uint32_t eos, double scale, double rho0, double d, bool floor)
+{
+    const double b = scale / rho0, s = 1 + d, z = d / (2 + d);
+    const bool near = (z < 0 ? -z : z) <= 0.25;
+    if (SPH_IS(eos, ISOTHERMAL)) /* its pressure is never below 0 */
+        return b * (near ? 2 * (z + atanh_rest(z)) : sph_log(s));
+    if (floor && d < 0)
+        return 0;
+    if (SPH_IS(eos, LINEAR))
+        return b * (near ? 2 * (atanh_rest(z) + z * z / (1 + z)) : sph_log(s) - d / s);
+    return b * d * d * (21 + d * (35 + d * (35 + d * (21 + d * (7 + d))))) / (6 * s);
 }

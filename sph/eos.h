@@ -12,8 +12,8 @@ double sph_eos_pressure(uint32_t eos, double scale, double d, bool floor);
 /* the excess at a pressure */
 #define sph_eos_excess SPH_NAME(eos_excess_)
 double sph_eos_excess(uint32_t eos, double scale, double p);
-/* energy of compression from rho0 (J/kg): the integral of p/rho^2 d rho */
+/* energy of compression from rho0 (J/kg): the integral of p/rho^2 d rho of that pressure */
 #define sph_eos_energy SPH_NAME(eos_energy_)
-double sph_eos_energy(uint32_t eos, double scale, double rho0, double d);
+double sph_eos_energy(uint32_t eos, double scale, double rho0, double d, bool floor);
 
 #endif

@@ -53,6 +53,16 @@ double sph_courant_factor(const sph_config *c)
     return c->cfl < stands ? c->cfl : stands;
 }
 
+/* whether the form of the equations does not conserve energy */
+static bool loses_energy(const sph_config *c)
+{
+    bool loses = SPH_IS(c->scheme, DIRECT) || SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK) ||
+        sph_smooths_strain(c) || (sph_sums_density(c) && sph_weak_scheme(c->scheme));
+    for (uint32_t k = 0; k < SPH_DIM; k++) /* images that move along the face */
+        loses |= SPH_IS(c->face[k][0], MIRROR_NO_SLIP) || SPH_IS(c->face[k][1], MIRROR_NO_SLIP);
+    return loses;
+}
+
 /* constants of the pair formulas; made at init and when the configuration changes */
 void sph_make_factors(sph_sim *sim)
 {
@@ -89,6 +99,8 @@ void sph_make_factors(sph_sim *sim)
     sim->courant = sph_courant_factor(c);
     f->rate_by_density = sph_weak_scheme(c->scheme) || SPH_IS(c->gradient, BONET_LOK);
     f->continuity = !sph_sums_density(c);
+    f->loses = sph_keeps_books(c) && loses_energy(c);
+    f->bonds = sph_is_total(c) || sph_repels(c);
     f->extras = SPH_HAS_EXTRAS && (sph_uses_xsph(c) || (SPH_WITH_BODY_FORCE && c->body_force) || sph_keeps_books(c));
     if (SPH_WITH_STANDARD_WICK || SPH_WITH_WEAK_WICK)
         f->small_p = (sph_real)(1e-6 * c->rho0 * c->sound_speed * c->sound_speed);

@@ -94,23 +94,26 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     p.wall = wall;
     p.tile = o->tile;
     p.j = j;
-    p.force = v_set(0);
+    p.force = p.gain = v_set(0);
     p.apart = v_set_int(0);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        p.push[k] = v_set(0);
 
     if (!geometry(o, &p))
         return;
     kernel(o, &p);
     sph_continuity(c, o->f, o->home, &p, s);
     sph_stress_force(c, o->f, o->home, o->solid, o->stress, o->smoothed, &p, s);
-    sph_pressure_force(c, o->home, &p);
+    sph_pressure_force(c, o->f, o->home, &p);
     sph_corrected_pressure(c, o->home, o->gradient, o->corrected, &p, s);
-    sph_contact(c, o->f, o->home, &p);
+    sph_contact(c, o->f, o->home, &p, s);
     sph_inverse_distance(c, o->f, o->home, &p);
     sph_viscosity(c, o->f, o->home, o->mirror, &p, s);
     momentum(c, &p, s);
     sph_diffusion(c, o->f, o->home, &p, s);
     sph_xsph(c, o->home, &p, s);
-    sph_pair_power(c, &p, s);
+    sph_pair_power(c, o->home, &p, s);
 }
 
 SPH_INLINE void pair_bodies(const void *what, uint32_t j, vreal *s) { pair(what, false, j, s); }
@@ -121,12 +124,17 @@ SPH_INLINE void pair_either(const void *what, uint32_t j, vreal *s)
     pair(o, SPH_HAS_LAYERED_WALLS && o->c->wall, j, s);
 }
 
+SPH_INLINE uint32_t book_sums(const sph_choice *c, bool wall)
+{
+    return SUM_MASK(VISCOUS) | SUM_MASK(DIFFUSED) | (wall ? SUM_MASK(WALL) | SUM_MASK(IN_WALLS) : 0) |
+           (c->total || c->repulsion ? SUM_MASK(IN_BONDS) : 0) | (c->loses ? SUM_MASK(UNBALANCED) : 0);
+}
 /* the sums that these choices take */
 SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
 {
     return SUM_MASK(DRHO) | SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_SOLID && c->solid ? SUM_MASK(GRADIENT) : 0) |
            (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
-           (SPH_WITH_BOOKS && c->books ? SUM_MASK(VISCOUS) | SUM_MASK(DIFFUSED) | (wall ? SUM_MASK(WALL) : 0) : 0);
+           (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) : 0);
 }
 
 SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h,
@@ -291,6 +299,7 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .beta = c->beta != 0,               .xsph = sph_uses_xsph(c) && !hat,
                         .books = sph_keeps_books(c),        .solid = sph_has_solids(c),
                         .total = sph_is_total(c),           .hat = hat,
+                        .summed = sph_sums_density(c),      .loses = sim->fac.loses,
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0)};
 }
 
@@ -348,6 +357,47 @@ static sph_real add_body_force(const sph_sim *sim, const sph_thread *t, uint32_t
     return power;
 }
 
+/* sum m_j v_ij (x) K g of a home */
+SPH_INLINE void raw_gradient(const sph_sim *sim, const sph_thread *t, uint32_t h, sph_real *raw)
+{
+    for (uint32_t k = 0; k < SPH_NL; k++)
+        raw[k] = v_fold(t->sum[SUM_GRADIENT + k][h]) * sim->fac.slope;
+}
+
+/* powers of a home for the books, per unit mass (POWER_... in internal.h) */
+static void finish_powers(sph_sim *sim, const sph_thread *t, uint32_t h, sph_real body)
+{
+    const sph_factors *f = &sim->fac;
+    const uint32_t i = t->home_at[h];
+    const sph_set *set = &sim->set[t->home_set[h]];
+    const sph_real rho = t->home.rho[h], press = t->home.press[h], moved = t->sum[SUM_BOUNDARY][h][SPH_DIM];
+    const sph_real ratio = sph_weak_scheme(sim->cfg.scheme) ? press / (rho * rho) : press;
+    const sph_real whole = SPH_WITH_SOLID && press < 0 ? sph_whole_of(&sim->buf[sim->dst], i) : 1;
+    sph_real in = moved, lost = 0; /* springs of boundary forces; what XSPH's drift does in gravity */
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        if (SPH_HAS_FORCE_WALLS && sim->has_force_wall)
+            in -= t->sum[SUM_BOUNDARY][h][k] * t->home.v[k][h];
+        if (sph_uses_xsph(&sim->cfg) && !(sph_held(sim, set) >> k & 1))
+            lost += f->gravity[k] * sim->buf[sim->dst].xsph[k][i];
+    }
+    if (SPH_HAS_LAYERED_WALLS)
+        in += v_fold(t->sum[SUM_IN_WALLS][h]) * f->slope;
+    if (f->loses)
+        lost += v_fold(t->sum[SUM_UNBALANCED][h]) * f->slope;
+    if (SPH_WITH_SOLID && sph_is_solid(set)) {
+        sph_real raw[SPH_NL];
+        raw_gradient(sim, t, h, raw);
+        lost -= sph_stress_surplus(sim, set, i, raw, rho);
+    }
+    sim->power[POWER_DISSIPATED][i] = v_fold(t->sum[SUM_VISCOUS][h]) * f->slope;
+    sim->power[POWER_WALL][i] = moved - v_fold(t->sum[SUM_WALL][h]) * f->slope;
+    sim->power[POWER_DIFFUSED][i] = -(v_fold(t->sum[SUM_DIFFUSED][h]) * f->slope * ratio * whole);
+    sim->power[POWER_BODY][i] = body;
+    sim->power[POWER_IN_WALLS][i] = in;
+    sim->power[POWER_IN_BONDS][i] = SPH_WITH_SOLID && f->bonds ? v_fold(t->sum[SUM_IN_BONDS][h]) * f->slope : 0;
+    sim->power[POWER_UNBALANCED][i] = lost;
+}
+
 /* what the scene asked for besides forces: XSPH velocity, boundary forces, the body force, powers for the books */
 static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc)
 {
@@ -362,12 +412,8 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
         acc[k] += t->sum[SUM_BOUNDARY][h][k];
     if (SPH_WITH_BODY_FORCE && c->body_force)
         body = add_body_force(sim, t, h, acc);
-    if (sph_keeps_books(c)) { /* powers per unit mass of this particle */
-        sim->power[0][i] = v_fold(t->sum[SUM_VISCOUS][h]) * f->slope;
-        sim->power[1][i] = t->sum[SUM_BOUNDARY][h][SPH_DIM] - v_fold(t->sum[SUM_WALL][h]) * f->slope;
-        sim->power[2][i] = v_fold(t->sum[SUM_DIFFUSED][h]) * f->slope;
-        sim->power[3][i] = body;
-    }
+    if (sph_keeps_books(c))
+        finish_powers(sim, t, h, body);
 }
 
 /* along the axes on which a set is held it feels no force; what moves it does work against it (and on its inertia) */
@@ -378,7 +424,7 @@ static void hold(sph_sim *sim, const sph_set *set, uint32_t i, sph_real *acc)
         if (!(held >> k & 1))
             continue;
         if (sph_keeps_books(&sim->cfg))
-            sim->power[1][i] -= acc[k] * (sph_real)sph_wall_velocity(sim, set, k);
+            sim->power[POWER_WALL][i] -= acc[k] * (sph_real)sph_wall_velocity(sim, set, k);
         acc[k] = 0;
         if (sph_uses_xsph(&sim->cfg))
             sim->buf[sim->dst].xsph[k][i] = 0;
@@ -395,8 +441,7 @@ static sph_real finish_rates(const sph_sim *sim, const sph_thread *t, uint32_t h
         d *= t->home.rho[h];
     if (sph_has_solids(&sim->cfg)) {
         sph_real raw[SPH_NL];
-        for (uint32_t k = 0; k < SPH_NL; k++)
-            raw[k] = v_fold(t->sum[SUM_GRADIENT + k][h]) * f->slope;
+        raw_gradient(sim, t, h, raw);
         d += sph_stress_rates(sim, set, t->home_at[h], raw, t->home.rho[h]) * t->home.rho[h] * set->inv_rho0_r;
     }
     return f->continuity ? d : 0;

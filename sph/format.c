@@ -102,7 +102,7 @@ static const sph_member state_fields[] = {
     {"peak_mu", "1/s", M_REAL, 1, AT(sph_scalars, peaks.mu)},
     {"peak_acc", "m/s^2", M_REAL, 1, AT(sph_scalars, peaks.acc)},
     {"peak_speed", "m/s", M_REAL, 1, AT(sph_scalars, peaks.speed)},
-    {"work", "J", M_DOUBLE, SPH_POWERS, AT(sph_scalars, work)}, /* viscous, wall, diffusion, body */
+    {"work", "J", M_DOUBLE, SPH_POWERS, AT(sph_scalars, work)}, /* POWER_... of internal.h */
     {"power", "W", M_DOUBLE, SPH_POWERS, AT(sph_scalars, power)},
 #define BOOK_FIELD(name, unit, when, what) {#name, unit, M_DOUBLE, 1, AT(sph_scalars, name)},
     SPH_BOOKS(BOOK_FIELD)

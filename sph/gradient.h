@@ -76,7 +76,7 @@ SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_h
 
 /* the force of the pressure after Bonet & Lok */
 SPH_INLINE void sph_corrected_pressure(const sph_choice *c, const sph_home *o, const sph_gradient_home *h,
-                                       const sph_real *row, const sph_near *p, vreal *s)
+                                       const sph_real *row, sph_near *p, vreal *s)
 {
     if (!SPH_IS(c->gradient, BONET_LOK))
         return;
@@ -88,10 +88,13 @@ SPH_INLINE void sph_corrected_pressure(const sph_choice *c, const sph_home *o, c
     sph_symmetric_times(sum, p->dx, a);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
-        s[SUM_ACC + k] = s[SUM_ACC + k] + a[k] * w;
-        if (SPH_WITH_BOOKS && c->books && p->wall)
-            s[SUM_WALL] = s[SUM_WALL] + a[k] * w * v_load(p->tile->v[k] + p->j);
+        p->push[k] = a[k] * w;
+        s[SUM_ACC + k] = s[SUM_ACC + k] + p->push[k];
     }
+    if (!SPH_WITH_BOOKS || !c->books || !c->loses)
+        return;
+    sph_symmetric_times(h->t, p->dx, a);
+    p->gain = sph_dot(p->dv, a) * w;
 }
 
 #define sph_load_gradient SPH_NAME(load_gradient_)

@@ -71,14 +71,16 @@ static void restrain(const sph_sim *sim, sph_span s)
 /* when all of a particle has advanced, at a step's end */
 static void finish(sph_sim *sim, uint32_t chunk, sph_span s, sph_thread *t)
 {
+    double *const books = SPH_WITH_BOOKS ? sph_open_books(sim, chunk) : NULL;
+    (void)chunk;
     sph_settle(sim, s);
     if (SPH_HAS_DAMAGE)
-        sph_grow_damage(sim, s);
+        sph_grow_damage(sim, s, books);
     if (SPH_HAS_WALLS)
-        sph_cross_walls(sim, s, t);
+        sph_cross_walls(sim, s, t, books);
     sph_check(sim, s, t);
     if (SPH_WITH_BOOKS)
-        sph_sum_powers(sim, chunk, s);
+        sph_sum_powers(sim, s, books);
     t->work += s.last - s.first;
 }
 static sph_status finished(sph_sim *sim) { return SPH_WITH_BOOKS ? sph_add_powers(sim) : SPH_OK; }
@@ -166,7 +168,7 @@ static void prime_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     settle_chunk(sim, chunk, t);
     if (SPH_WITH_BOOKS)
-        sph_sum_powers(sim, chunk, sph_chunk_span(sim, chunk));
+        sph_sum_powers(sim, sph_chunk_span(sim, chunk), sph_open_books(sim, chunk));
 }
 static sph_status primed(sph_sim *sim)
 {

@@ -16,8 +16,19 @@
 #include "sph.h"
 
 #define SPH_PAD 48u       /* elements that may be read past an array's end by a vector */
-#define SPH_POWERS 4u     /* kept in the books: viscous, wall, diffusion, body force */
-#define SPH_PARTIALS (SPH_POWERS + 1u) /* sums of a chunk for the books: those, and energy given to held sets (J) */
+/* powers on the books (W); what is given: walls, body force; what is taken: the others (see sph_totals) */
+enum {
+    POWER_DISSIPATED,
+    POWER_WALL,
+    POWER_DIFFUSED,
+    POWER_BODY,
+    POWER_IN_WALLS,
+    POWER_IN_BONDS,
+    POWER_UNBALANCED,
+    SPH_POWERS
+};
+/* sums of a chunk for the books: those, and what happens at once (J): given to held sets, then books of sph.h */
+enum { JUMP_HELD = SPH_POWERS, JUMP_REMOVED, JUMP_RELEASED, JUMP_PUT_BACK, JUMP_DAMPED, JUMP_FILTERED, SPH_PARTIALS };
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
 /* a sum of squares above this counts as not finite: a float has room for a factor of 1e8 beyond */
 #define SPH_LIMIT_SQUARE ((sph_real)1e30)
@@ -70,6 +81,7 @@ typedef struct sph_factors {
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], gravity[SPH_DIM], small_p;
     bool rate_by_density, continuity, extras;
+    bool loses, bonds;           /* books: the form does not conserve energy; contact or artificial stress */
 } sph_factors;
 
 /* everything of the state that is not an array; copied whole when a step commits */
@@ -81,7 +93,7 @@ typedef struct sph_scalars {
     sph_peaks peaks;
     double work[SPH_POWERS]; /* J, their integrals */
     SPH_BOOKS(SPH_BOOK_MEMBER)
-    double power[SPH_POWERS]; /* W, at the end of the latest step: viscous, wall, diffusion, body */
+    double power[SPH_POWERS]; /* W, at the end of the latest step */
     sph_group_state group[SPH_MAX_GROUPS];
 } sph_scalars;
 
@@ -278,6 +290,21 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
 /* the stress after damage (xx, yy, zz, xy, xz, yz; Pa, tension positive) and D of a particle of a buffer, in double */
 #define sph_stress_of SPH_NAME(stress_of_)
 double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress);
+/* 1 - D of a particle */
+#define sph_whole_of SPH_NAME(whole_of_)
+sph_real sph_whole_of(const sph_buffer *b, uint32_t i);
+/* The energy that a particle of a buffer holds (J): of motion; in gravity, from height 0; of compression by the pressure
+   that acts; of distortion, (1 - D) S:S/(4 mu) on its volume at rest; and what its yielding took. */
+typedef struct sph_energy {
+    double kinetic, potential, internal, elastic, plastic;
+} sph_energy;
+#define sph_energy_of SPH_NAME(energy_of_)
+sph_energy sph_energy_of(const sph_sim *sim, const sph_buffer *b, uint32_t i);
+SPH_INLINE double sph_energy_sum(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const sph_energy e = sph_energy_of(sim, b, i);
+    return e.kinetic + e.potential + e.internal + e.elastic + e.plastic;
+}
 #define sph_hash_buffer SPH_NAME(hash_buffer_)
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n);
 
@@ -321,10 +348,15 @@ sph_sim *sph_lay_out_arena(const sph_config *c, const sph_grid *g, void *arena);
 #define sph_list_arena SPH_NAME(list_arena_)
 void sph_list_arena(const sph_config *c, const sph_grid *g, sph_arena_fn *fn, void *ctx);
 
+/* whether a set's pressure is held at 0 or above */
+SPH_INLINE bool sph_has_floor(const sph_sim *sim, const sph_set *s)
+{
+    return sim->cfg.pressure_floor && !sph_is_solid(s);
+}
 /* pressure (Pa) of a set's particle at relative density excess d, and the excess at a pressure (eos.h) */
 SPH_INLINE double sph_pressure(const sph_sim *sim, const sph_set *s, double d)
 {
-    return sph_eos_pressure(s->eos, (double)s->b_r, d, sim->cfg.pressure_floor && !sph_is_solid(s));
+    return sph_eos_pressure(s->eos, (double)s->b_r, d, sph_has_floor(sim, s));
 }
 SPH_INLINE double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
 {

@@ -10,22 +10,38 @@
 #define sph_yield SPH_NAME(yield_)
 void sph_yield(const sph_sim *sim, sph_span s);
 
-/* damage.c: grows damage over dt; ids are the particles' own */
+/* damage.c: grows damage over dt; ids are the particles' own. books: a chunk's row of the books, or null */
 #define sph_grow_damage SPH_NAME(grow_damage_)
-void sph_grow_damage(const sph_sim *sim, sph_span s);
+void sph_grow_damage(const sph_sim *sim, sph_span s, double *books);
 
 /* crossing.c: the policy for particles that are found inside a wall, after they moved */
 #define sph_cross_walls SPH_NAME(cross_walls_)
-void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t);
+void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t, double *books);
 
 /* groups.c: displaces the groups that move to where they are at time t, and removes those whose time has come, unless
    they stand there already (not `moves`) */
 #define sph_move_groups SPH_NAME(move_groups_)
 sph_status sph_move_groups(sph_sim *sim, double t, bool moves);
 
-/* powers.c: sums of a chunk; then the books of a step, and of the first forces */
+/* a chunk's row of the books, and the sum of a column over all rows */
+SPH_INLINE double *sph_book_row(const sph_sim *sim, uint32_t chunk)
+{
+    return sim->partial + (size_t)chunk * SPH_PARTIALS;
+}
+SPH_INLINE double sph_sum_rows(const sph_sim *sim, uint32_t column)
+{
+    double sum = 0;
+    for (uint32_t c = 0; c < sph_local_chunks(sim); c++)
+        sum += sph_book_row(sim, c)[column];
+    return sum;
+}
+
+/* powers.c: a chunk's row of the books (powers, then JUMP_... of internal.h), all zeros; null in scenes without books.
+   Its sums of powers; then the books of a step, and of the first forces */
+#define sph_open_books SPH_NAME(open_books_)
+double *sph_open_books(const sph_sim *sim, uint32_t chunk);
 #define sph_sum_powers SPH_NAME(sum_powers_)
-void sph_sum_powers(const sph_sim *sim, uint32_t chunk, sph_span s);
+void sph_sum_powers(const sph_sim *sim, sph_span s, double *books);
 #define sph_add_powers SPH_NAME(add_powers_)
 sph_status sph_add_powers(sph_sim *sim);
 #define sph_first_powers SPH_NAME(first_powers_)

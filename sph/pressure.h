@@ -7,9 +7,24 @@
 #ifndef SPH_PRESSURE_H
 #define SPH_PRESSURE_H
 
-#include "term.h"
+#include "continuity.h"
 
-SPH_INLINE void sph_pressure_force(const sph_choice *c, const sph_home *h, sph_near *p)
+/* What the home's own energy gains where the density goes as continuity.h says: p/rho^2 of its rate. Where it is summed,
+   what this home's motion makes both of a pair gain: images then move as their places do, not as their velocities say. */
+SPH_INLINE vreal sph_pressure_gain(const sph_choice *c, const sph_factors *f, const sph_home *h, const sph_near *p)
+{
+    const bool weak = sph_weak_scheme(c->scheme);
+    const vreal own = weak ? h->press * (h->inv_rho * h->inv_rho) : h->press;
+    const vreal other = weak ? p->press * (p->inv_rho * p->inv_rho) : p->press;
+    if (c->summed)
+        return p->wall ? own * p->mg * p->vr : (own + other) * p->mg * sph_dot(h->v, p->dx);
+    const vreal gain = (weak ? h->press * h->inv_rho * p->inv_rho : h->press) * p->mg * p->vc;
+    if (!SPH_IS(c->scheme, STANDARD_WICK) && !SPH_IS(c->scheme, WEAK_WICK))
+        return gain;
+    return gain * sph_printed_weight(c->scheme, f, h->press, p->press, h->rho);
+}
+
+SPH_INLINE void sph_pressure_force(const sph_choice *c, const sph_factors *f, const sph_home *h, sph_near *p)
 {
     if (c->solid || SPH_IS(c->gradient, BONET_LOK))
         return;
@@ -19,6 +34,12 @@ SPH_INLINE void sph_pressure_force(const sph_choice *c, const sph_home *h, sph_n
         p->force = (p->press - h->press) * h->inv_rho * p->inv_rho * p->mg;
     else
         p->force = (p->press + h->press) * h->inv_rho * p->inv_rho * p->mg;
+    if (!SPH_WITH_BOOKS || !c->books || !c->loses)
+        return;
+    p->gain = sph_pressure_gain(c, f, h, p);
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++)
+        p->push[k] = p->force * p->ex[k];
 }
 
 #endif

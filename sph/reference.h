@@ -56,12 +56,14 @@ SPH_INLINE void sph_reference_distance(const sph_reference_home *h, const sph_re
 
 /* contact of two bodies: they push each other along x_ij, nearer than dx, as by a pressure rho0 c0^2 (W/W(dx) - 1) in
    both */
-SPH_INLINE void sph_contact(const sph_choice *c, const sph_factors *f, const sph_home *h, sph_near *p)
+SPH_INLINE void sph_contact(const sph_choice *c, const sph_factors *f, const sph_home *h, sph_near *p, vreal *s)
 {
     if (!SPH_HAS_TOTAL || !c->solid || !c->total || p->wall)
         return;
     const vreal push = v_where(p->apart, v_pos(k_value(c->kernel, p->q) * f->inv_wdx - 1)) * f->contact;
     p->force = sph_weak_scheme(c->scheme) ? push * h->inv_rho * p->inv_rho * p->mg : push * p->mg;
+    if (SPH_WITH_BOOKS && c->books)
+        s[SUM_IN_BONDS] = s[SUM_IN_BONDS] + p->force * sph_pair_share(c, h, p, p->ex, p->ve);
 }
 
 #endif

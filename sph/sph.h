@@ -34,7 +34,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 3u /* 1: without solids */
+#define SPH_VERSION 4u /* 1: without solids; 3: with fewer books */
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
@@ -288,7 +288,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
     (SPH_STATE_BYTES_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                           \
      (((use) & (SPH_USE_RUNGE_KUTTA | SPH_USE_SOLID)) ? 0u : 2u * SPH_REAL_) + /* predictor-corrector */    \
      (((use)&SPH_USE_XSPH) ? SPH_DIM * (SPH_DOUBLE ? 8u : 4u) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +  \
-     (((use)&SPH_USE_BOOKS) ? 4u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
+     (((use)&SPH_USE_BOOKS) ? 7u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u))
@@ -616,12 +616,27 @@ uint32_t sph_count(const sph_sim *sim); /* particles in the simulation, walls in
 sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges -----------------------------------------------------------------------*/
-/* Books kept in every scene, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
-   the state, its digest and dumps follow from the list. `c`: the configuration. */
+/* Books of what happens at once, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
+   the state, its digest and dumps follow from the list. `c`: the configuration. The first two are kept in every scene,
+   the others where the scene asks for books. */
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
-    X(removed_mass, "kg", false, "left the domain or was removed")
+    X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
+    X(carried_off, "J", c->books, "energy that it had")                                                               \
+    X(released, "J", c->books, "elastic energy and that of tension that damage let go")                               \
+    X(put_back_loss, "J", c->books, "lost by particles that were put back off a wall; < 0: gained")                   \
+    X(filtered, "J", c->books, "taken from the internal energy by the Shepard filter")                                \
+    X(damped, "J", c->books, "kinetic energy that damping took, to first order in dt")
 
+/* Energy is accounted for whole. At every instant
+     d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes,
+   to rounding; the powers are integrated over time by the trapezoidal rule, and
+     balance = kinetic + potential + internal + elastic + plastic_work - wall_work - body_work + dissipated + diffused
+             + in_walls + in_bonds + unbalanced + absorbed + carried_off + released + put_back_loss + filtered + damped
+   stays (plastic_work to first order in dt; gravity changed by sph_reconfigure shifts the potential). Without books it
+   is what can be summed without them. `unbalanced` is 0 but for DIRECT, the printed continuity forms, WEAK schemes with
+   summed density, MIRROR_NO_SLIP, xsph_strain, the drift of XSPH in gravity, and solids, whose Jaumann rate stores
+   S:e/rho0 of the S:e/rho that forces give. */
 typedef struct sph_totals {
     uint32_t fluid, wall, solid; /* particles */
     double mass;                 /* kg, fluid and solid, as all that follows */
@@ -636,8 +651,12 @@ typedef struct sph_totals {
     double body_work;            /* J, done by the body force beside gravity (books) */
     double dissipated;           /* J, by viscosity (books) */
     double diffused;             /* J, taken from the internal energy by density diffusion (books) */
+    double in_walls;             /* J, taken up by walls: compression of ghosts, springs of boundary forces (books) */
+    double in_bonds;             /* J, taken up by contact of bodies (SPH_TOTAL) and artificial stress (books) */
+    double unbalanced;           /* J, lost in forms that do not conserve energy; see above (books) */
 #define SPH_BOOK_MEMBER(name, unit, when, what) double name;
     SPH_BOOKS(SPH_BOOK_MEMBER)
+    double balance;              /* J: constant but for the error of time steps (books); see above */
     double max_speed, min_density, max_density;
 } sph_totals;
 /* Sums over fluid and solid in double precision, in index order. */

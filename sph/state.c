@@ -21,13 +21,20 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
     return sph_raise(&sim->report, &sim->cfg.port, &(sph_report){s, what, allowed, pass, value, particle});
 }
 
+static double damage_of(const sph_buffer *b, uint32_t i)
+{
+    if (!SPH_HAS_DAMAGE || !b->damage[0])
+        return 0;
+    const double root = (double)b->damage[0][i];
+    return SPH_DIM == 3 ? root * root * root : root * root;
+}
+
+sph_real sph_whole_of(const sph_buffer *b, uint32_t i) { return (sph_real)(1 - damage_of(b, i)); }
+
 double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *stress)
 {
-    double p = sph_pressure(sim, &sim->set[b->set[0][i]], (double)b->rho[0][i]), damage = 0, d[6] = {0};
-    if (SPH_HAS_DAMAGE && b->damage[0]) {
-        const double root = (double)b->damage[0][i];
-        damage = SPH_DIM == 3 ? root * root * root : root * root;
-    }
+    double p = sph_pressure(sim, &sim->set[b->set[0][i]], (double)b->rho[0][i]), d[6] = {0};
+    const double damage = damage_of(b, i);
     /* the deviator: what the state keeps, and what follows from a trace of 0 */
     for (uint32_t k = 0; k < SPH_NS; k++)
         d[SPH_DIM > 1 && k > 1 ? k + 1 : k] = (double)b->stress[k][i] * (1 - damage);
@@ -39,6 +46,44 @@ double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double
     for (int k = 0; k < 6; k++)
         stress[k] = d[k] - (k < 3 ? p : 0);
     return damage;
+}
+
+/* J/kg: the integral of the pressure that acts over 1/rho; in tension damage takes its share of both */
+static double internal_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const sph_set *s = &sim->set[b->set[0][i]];
+    const double d = (double)b->rho[0][i];
+    const double e = sph_eos_energy(s->eos, (double)s->b_r, s->rho0, d, sph_has_floor(sim, s));
+    return sph_pressure(sim, s, d) < 0 ? e * (1 - damage_of(b, i)) : e;
+}
+
+/* (1 - D) S:S/(4 mu), J/m^3 */
+static double distortion_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const double mu = sph_material_of(sim, &sim->set[b->set[0][i]])->shear;
+    double s[6], w = 0;
+    const double whole = 1 - sph_stress_of(sim, b, i, s), p = (s[0] + s[1] + s[2]) / 3;
+    for (int k = 0; k < 6; k++)
+        w += k < 3 ? (s[k] - p) * (s[k] - p) : 2 * s[k] * s[k];
+    return mu > 0 && whole > 0 ? w / (4 * mu * whole) : 0;
+}
+
+sph_energy sph_energy_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const sph_set *s = &sim->set[b->set[0][i]];
+    double v2 = 0, fall = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        v2 += (double)b->vel[k][i] * (double)b->vel[k][i];
+        fall -= s->mass * sim->cfg.gravity[k] * (sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum);
+    }
+    sph_energy e = {0.5 * s->mass * v2, fall, s->mass * internal_of(sim, b, i), 0, 0};
+    if (SPH_WITH_SOLID && sph_is_solid(s)) {
+        const sph_material *m = sph_material_of(sim, s);
+        const double ep = SPH_HAS_YIELD && b->plastic[0] ? (double)b->plastic[0][i] : 0;
+        e.elastic = s->mass / s->rho0 * distortion_of(sim, b, i);
+        e.plastic = s->mass / s->rho0 * ep * (m->yield + 0.5 * m->hardening * ep);
+    }
+    return e;
 }
 
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n)

@@ -193,4 +193,18 @@ sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, co
         trace += l[k][k];
     return -trace;
 }
+
+sph_real sph_stress_surplus(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], power = 0; /* S has no trace: S:e = S:L */
+    if (!(sph_material_of(sim, set)->shear_r > 0)) /* then there is no energy of S */
+        return 0;
+    velocity_gradient(sim, i, raw, rho, sph_corrects(&sim->cfg), l);
+    tensor_of(b, i, s);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t c = 0; c < SPH_DIM; c++)
+            power += s[k][c] * l[k][c];
+    return power * sph_whole_of(b, i) * (set->inv_rho0_r - 1 / rho);
+}
 #endif

@@ -36,6 +36,11 @@ void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row);
 #define sph_stress_rates SPH_NAME(stress_rates_)
 sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho);
 
+/* books: by how much more the elastic energy S:S/(4 mu) of a unit of rest volume rises than forces give, W/kg:
+   S:e/rho0 - S:e/rho */
+#define sph_stress_surplus SPH_NAME(stress_surplus_)
+sph_real sph_stress_surplus(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho);
+
 typedef struct sph_stress_home {
     vreal t[SPH_NL], r[SPH_NT], u[SPH_DIM]; /* u: velocity that strain rates see */
 } sph_stress_home;
@@ -81,8 +86,40 @@ SPH_INLINE vreal sph_stress_sum(const sph_choice *c, const sph_stress_home *h, c
     return sum;
 }
 
+/* books: component k of what the home's energy gains, T_i : (v_ij (x) K); d: w times the velocity that it sees */
+SPH_INLINE void sph_stress_gain(const sph_choice *c, const sph_stress_home *h, sph_near *p, int k, vreal d)
+{
+    if (!SPH_WITH_BOOKS || !c->books || !c->loses)
+        return;
+    p->gain = k ? p->gain : v_set(0);
+    SPH_UNROLL
+    for (int l = 0; l < SPH_DIM; l++)
+        p->gain = p->gain + h->t[k * SPH_DIM + l] * p->kx[l] * d;
+}
+
+/* books: the part of the artificial stress is taken out of `push`, and has a power of its own; fw: w f^n */
+SPH_INLINE void sph_repulsion_power(const sph_choice *c, const sph_home *o, const sph_stress_home *h,
+                                    const sph_stress_tile *t, sph_near *p, vreal fw, vreal *s)
+{
+    if (!SPH_WITH_BOOKS || !c->books || !c->repulsion || p->wall)
+        return;
+    vreal r[SPH_DIM];
+    SPH_UNROLL
+    for (int k = 0; k < SPH_DIM; k++) {
+        r[k] = v_set(0);
+        SPH_UNROLL
+        for (int l = 0; l < SPH_DIM; l++) {
+            const uint32_t n = sph_sym[k][l];
+            r[k] = r[k] + (h->r[n] + v_load(t->r[n] + p->j)) * p->kx[l];
+        }
+        r[k] = r[k] * fw;
+        p->push[k] = p->push[k] - r[k];
+    }
+    s[SUM_IN_BONDS] = s[SUM_IN_BONDS] + sph_pair_share(c, o, p, r, sph_dot(r, p->dv));
+}
+
 SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, const sph_home *o, const sph_stress_home *h,
-                                 const sph_stress_tile *t, const sph_real *u, const sph_near *p, vreal *s)
+                                 const sph_stress_tile *t, const sph_real *u, sph_near *p, vreal *s)
 {
     if (!SPH_WITH_SOLID || !c->solid)
         return;
@@ -100,14 +137,17 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
             a = l ? a + sum * p->kx[l] : sum * p->kx[l];
         }
         s[SUM_ACC + k] = s[SUM_ACC + k] + a * w;
+        p->push[k] = a * w;
         vreal d = p->dv[k];
         if (c->hat)
             d = h->u[k] - (p->wall ? v_load(p->tile->v[k] + p->j) : v_load(u + (uint32_t)k * SPH_TILE_ROOM + p->j));
+        sph_stress_gain(c, h, p, k, d * w);
         d = d * wl;
         SPH_UNROLL
         for (int l = 0; l < SPH_DIM; l++)
             s[SUM_GRADIENT + k * SPH_DIM + l] = s[SUM_GRADIENT + k * SPH_DIM + l] + d * p->kx[l];
     }
+    sph_repulsion_power(c, o, h, t, p, fn * w, s);
 }
 
 #endif

@@ -17,6 +17,9 @@
     X(VISCOUS, 1)                                                                                                  \
     X(WALL, 1)                                                                                                     \
     X(DIFFUSED, 1)                                                                                                 \
+    X(IN_WALLS, SPH_WITH_BOOKS && SPH_HAS_LAYERED_WALLS ? 1 : 0)                                                   \
+    X(IN_BONDS, SPH_WITH_BOOKS && SPH_WITH_SOLID ? 1 : 0)                                                          \
+    X(UNBALANCED, SPH_WITH_BOOKS ? 1 : 0)                                                                          \
     X(BOUNDARY, 1)                                                                                                 \
     X(GRADIENT, SPH_WITH_SOLID ? SPH_NL : 0)
 enum {
@@ -35,7 +38,9 @@ typedef struct sph_choice {
     uint8_t beta, xsph, books;
     uint8_t solid, total, hat; /* a stress tensor; reference positions; strain rates from smoothed velocities */
     uint8_t repulsion;         /* exponent of the artificial stress, 0: none */
-    uint8_t spare[3];
+    uint8_t loses;             /* with books: the form does not conserve energy, so what it loses is summed too */
+    uint8_t summed;            /* density by summation */
+    uint8_t spare;
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 16, "sph_choice is compared as two words (forces.c)");
 /* whether the rate of density is summed without rho_i, by which it is multiplied in the end */
@@ -68,7 +73,18 @@ typedef struct sph_near {
     vreal force;                                 /* a_i -= force ex */
     vreal dw[SPH_DIM], fm, visc;                 /* what viscosity sees as v_ij; Morris: a_i += fm dw; Pi m_j g */
     vreal diff;                                  /* density diffusion */
+    vreal push[SPH_DIM], gain;                   /* books: what pressure or stress pushes with, as force ex does; what
+                                                    the home's own energy gains by the velocity gradient */
 } sph_near;
+
+/* The velocity along `push` at which a pair of bodies is asked what it does to the energy: relative, by half, because
+   each of the two asks (`relative`: v_ij . push); where the partner does not push back alike, the home's own. */
+SPH_INLINE vreal sph_pair_share(const sph_choice *c, const sph_home *h, const sph_near *p, const vreal *push,
+                                vreal relative)
+{
+    (void)p;
+    return c->loses ? sph_dot(push, h->v) : relative * (sph_real)0.5;
+}
 
 SPH_INLINE sph_home sph_spread_home(const sph_tile *t, uint32_t h)
 {
