@@ -10,7 +10,8 @@
 
 /* Positions are integers, counted in quanta from the domain's low corner. One quantum is a power of two (m) such
    that the longest axis has less than 2^30 (float) or 2^52 (double) of them: equally fine everywhere, exact to
-   subtract, and 2^6 times finer than a float at the far end of the domain. */
+   subtract, and 2^6 times finer than a float at the far end of the domain. Less than a quantum a step adds up, too: see
+   sph_rounding. */
 typedef sph_int sph_pos;
 #define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
 

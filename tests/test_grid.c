@@ -163,12 +163,82 @@ static void an_axis_between_mirrors_holds_a_support(void **state)
     assert_int_equal(sph_config_check(&c, &r), SPH_OK);
 }
 
+/* ---- places ---- */
+
+/* steps of one particle along x in an otherwise empty domain; returns how far it went (m) */
+static double travel(uint32_t integrator, double length, double v, double dt, uint32_t steps)
+{
+    sph_config c = open_config(1, 0.01);
+    double at[SPH_DIM], speed[SPH_DIM] = {v};
+    sph_particle p;
+    uint32_t set;
+    for (int k = 0; k < SPH_DIM; k++) {
+        c.lo[k] = 0;
+        c.hi[k] = k == 0 ? length : 0.1;
+        at[k] = 0.5 * c.hi[k];
+    }
+    c.sound_speed = 1;
+    c.dt = dt;
+    c.integrator = integrator;
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    must(sim, sph_add_particle(sim, set, at, speed, 0, NULL));
+    must(sim, sph_ready(sim));
+    assert_int_equal(sph_get(sim, 0, &p), SPH_OK);
+    const double from = p.x[0];
+    for (uint32_t n = 0; n < steps; n++)
+        must(sim, sph_step(sim));
+    assert_int_equal(sph_get(sim, 0, &p), SPH_OK);
+    close_to(p.v[0], v, EPS * fabs(v));
+    for (int k = 1; k < SPH_DIM; k++)
+        close_to(p.x[k], at[k], 1e-5);
+    assert_int_equal(free_sims(NULL), 0);
+    return p.x[0] - from;
+}
+
+/* v/c of 1e-6 at the usual step, 0.25 h/c: a hundredth of a quantum in a domain of 200 in float */
+static void what_moves_less_than_a_quantum_a_step_moves_on(void **state)
+{
+    const double dt = 0.25 * 0.012;
+    (void)state;
+    for (uint32_t integrator = 0; integrator < SPH_INTEGRATORS; integrator++) {
+        const double v = integrator % 2 ? 1e-6 : -1e-6;
+        close_to(travel(integrator, 50, v, dt, 8000), v * dt * 8000, 0.01 * fabs(v) * dt * 8000);
+        close_to(travel(integrator, 0.5, 10 * v, dt, 500), 10 * v * dt * 500, 0.01 * 10 * fabs(v) * dt * 500);
+    }
+}
+
+/* the sum over many steps of any displacement, in quanta, is off by less than 1.5 + 0.35 ln n of them */
+static void displacements_add_up(void **state)
+{
+    static sph_sim sim; /* only its step is read */
+    (void)state;
+    sph_rng_seed(&dice, 3, 4);
+    for (int trial = 0; trial < 200; trial++) {
+        const double d = trial == 0 ? 0.00315 /* 1e-6 c in a domain of 1000 */ : sph_exp(toss(-12, 2));
+        const uint32_t n = 100000, first = draw(1u << 30);
+        double gone = 0;
+        for (uint32_t i = 0; i < n; i++) {
+            sim.next.step = first + i;
+            const double u = (double)sph_rounding(&sim);
+            assert_true(u > 0 && u < 1);
+            gone += floor(d + u);
+        }
+        close_to(gone, n * d, 1.5 + 0.35 * log(n));
+        if (trial == 0)
+            close_to(gone, n * d, 0.01 * n * d);
+    }
+    sim.next.step = 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
         subject(no_cell_is_narrower_than_a_support),
         subject(every_pair_within_a_support_is_seen),
         subject(an_axis_between_mirrors_holds_a_support),
+        subject(what_moves_less_than_a_quantum_a_step_moves_on),
+        subject(displacements_add_up),
     };
     return run_subjects("grid", list);
 }
