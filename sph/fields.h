@@ -14,6 +14,7 @@
    sph_rounding. */
 typedef sph_int sph_pos;
 #define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
+#define SPH_POS_SHIFT (SPH_POS_BITS - 30) /* what is left of a position to find its cell by has 30 bits */
 
 /* A tensor of SPH_DIM^2 components, row by row; a symmetric one: the diagonal, then xy, xz, yz. The deviatoric stress
    lacks the last diagonal component in 3-D, which follows from the others (in 2-D and 1-D the missing ones are out of

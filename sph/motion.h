@@ -27,12 +27,13 @@ int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v);
 SPH_INLINE sph_real sph_rounding(const sph_sim *sim)
 {
     const uint32_t walk = (uint32_t)sim->next.step * 0x9e3779b9u; /* 2^32 (sqrt 5 - 1)/2 */
-    return ((sph_real)(walk >> 9) + (sph_real)0.5) * (sph_real)1.1920928955078125e-7; /* 2^-23 */
+    return (sph_real)(walk >> 8) * (sph_real)5.9604644775390625e-8; /* 2^-24 */
 }
 
-/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho */
+/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho; part: see
+   sph_rounding */
 typedef struct sph_move {
-    sph_real drift, bend, kick, rate, damping;
+    sph_real drift, bend, kick, rate, damping, part;
 } sph_move;
 #define sph_stage_move SPH_NAME(stage_move_)
 sph_move sph_stage_move(const sph_sim *sim);

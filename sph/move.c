@@ -7,7 +7,8 @@ sph_move sph_stage_move(const sph_sim *sim)
 {
     const sph_stage *g = sim->stage;
     const sph_real dt = (sph_real)sim->dt, damping = g->damps ? (sph_real)sim->cfg.damping : 1;
-    return (sph_move){g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, damping};
+    return (sph_move){g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, damping,
+                      sph_rounding(sim)};
 }
 
 /* displaces particles that forces move, i..i+n of src; returns false if one moves too far, not finitely, or out of
@@ -16,7 +17,7 @@ SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, u
                             bool all)
 {
     const sph_buffer *b = &sim->buf[sim->src];
-    const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), part = v_set(sph_rounding(sim));
+    const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), part = v_set(a->part);
     vint bad = v_set_int(0);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         /* no further than a cell, and never so far that the integer overflows */
