@@ -70,7 +70,7 @@ SCENES := $(wildcard examples/scenes/*.c)
 PROGS  := $(wildcard examples/*.c)
 TOOLS  := $(filter-out tools/build.c,$(wildcard tools/*.c))
 EXTRA_LISTS := $(wildcard tests/extra_*.h)
-TESTS  := $(filter-out test_lists,$(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))))
+TESTS  := $(filter-out test_lists test_restarts,$(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))))
 
 LIBS := $(BUILDS:%=$(BUILD)/libsph%.a)
 port_obj  := $(PORT:%.c=$(BUILD)/obj/%.o)
@@ -83,6 +83,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 .PHONY: count house gates gates-quick mutants
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
+.PHONY: restarts
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -172,6 +173,7 @@ builds_test_damage  := 2f 2d 3f 3d
 builds_test_options := 1d 2f 3f
 builds_test_arena   := $(BUILDS)
 builds_test_sponge  := 1f 1d 2f 2d 3f
+builds_test_grid    := $(BUILDS)
 builds_of = $(or $(builds_$(1)),2f 2d)
 # the stability atlas (tests/lab): one program of parts from several builds
 atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension atlas_sponge box) \
@@ -213,6 +215,28 @@ endef
 LISTS_BUILDS := 1f 2f 3d
 $(foreach b,$(LISTS_BUILDS),$(eval $(call lists_rules,$(b))))
 test_bins += $(LISTS_BUILDS:%=$(BUILD)/tests/test_lists_%)
+
+# the kernel once more with what is heavy to check, and poison in memory that may not be read yet (sph/validate.c)
+define poison_rules
+$(BUILD)/obj/poison_$(1)/%.o: %.c
+	$$(say) cc "$$< (poison, $(1))"
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(HOST_CFLAGS) $(call defines,$(1)) -USPH_ASSERTS -DSPH_VALIDATES=1 -MMD -MP -c $$< -o $$@
+$(BUILD)/tests/test_restarts_$(1): $(BUILD)/obj/poison_$(1)/tests/test_restarts.o $(KERNEL:%.c=$(BUILD)/obj/poison_$(1)/%.o)
+	$$(say) link $$@
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(LDFLAGS) $$^ -o $$@ -lcmocka -lm
+endef
+RESTART_BUILDS := 1d 2f 3d
+$(foreach b,$(RESTART_BUILDS),$(eval $(call poison_rules,$(b))))
+test_bins += $(RESTART_BUILDS:%=$(BUILD)/tests/test_restarts_%)
+
+# 2,000 random scenes of all modules: restored at every step, with poison, they go on with the same bits
+SCENES ?= 2000
+restarts: $(RESTART_BUILDS:%=$(BUILD)/tests/test_restarts_%)
+	$(Q)SCENES=$$(($(SCENES) / 2)) $(BUILD)/tests/test_restarts_2f
+	$(Q)SCENES=$$(($(SCENES) * 3 / 8)) FIRST=5000 $(BUILD)/tests/test_restarts_1d
+	$(Q)SCENES=$$(($(SCENES) / 8)) FIRST=9000 $(BUILD)/tests/test_restarts_3d
 
 # `make test` is one shell script so that cmocka is there before anything is compiled with it
 test:
@@ -436,6 +460,7 @@ help:
 	'make fuzz-replay  gives the committed corpus of inputs to the targets' \
 	'make asan tsan msan  tests under sanitizers: all; those of threads; the golden runs (clang)' \
 	'make atlas      where methods get unstable, against linear theory (ATLAS: some tables) -> tests/lab/atlas_*.csv' \
+	'make restarts   2,000 random scenes restored at every step: the same bits' \
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck, clang-tidy and the rules of the house' \
 	'make house      those rules alone: floors of files, lengths, words        -> $(BUILD)/house.csv' \

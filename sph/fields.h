@@ -10,9 +10,11 @@
 
 /* Positions are integers, counted in quanta from the domain's low corner. One quantum is a power of two (m) such
    that the longest axis has less than 2^30 (float) or 2^52 (double) of them: equally fine everywhere, exact to
-   subtract, and 2^6 times finer than a float at the far end of the domain. */
+   subtract, and 2^6 times finer than a float at the far end of the domain. Less than a quantum a step adds up, too: see
+   sph_rounding. */
 typedef sph_int sph_pos;
 #define SPH_POS_BITS (SPH_DOUBLE ? 52 : 30)
+#define SPH_POS_SHIFT (SPH_POS_BITS - 30) /* what is left of a position to find its cell by has 30 bits */
 
 /* A tensor of SPH_DIM^2 components, row by row; a symmetric one: the diagonal, then xy, xz, yz. The deviatoric stress
    lacks the last diagonal component in 3-D, which follows from the others (in 2-D and 1-D the missing ones are out of

@@ -111,8 +111,7 @@ typedef struct sph_grid {
     sph_pos extent[SPH_DIM];         /* domain size, quanta */
     sph_pos cell_size[SPH_DIM];      /* about; the cells' corners are where cell_mul puts them */
     uint32_t ncell[SPH_DIM], cells, slabs, slab_cells;
-    uint32_t cell_mul[SPH_DIM];      /* cell index = (position * mul) >> 32 after a shift */
-    uint32_t pos_shift;
+    uint32_t cell_mul[SPH_DIM], cell_shift[SPH_DIM]; /* cell = (units * mul) >> (32 + shift): see grid.c */
 } sph_grid;
 
 struct sph_thread; /* per-thread scratch: scratch.h */
@@ -438,7 +437,8 @@ SPH_INLINE double sph_wall_velocity(const sph_sim *sim, const sph_set *s, uint32
 /* cell of a position along axis k; the position must be inside the domain */
 SPH_INLINE uint32_t sph_cell_axis(const sph_sim *sim, uint32_t k, sph_pos q)
 {
-    return (uint32_t)(((uint64_t)(uint32_t)(q >> sim->grid.pos_shift) * sim->grid.cell_mul[k]) >> 32);
+    const uint64_t units = (uint32_t)(q >> SPH_POS_SHIFT);
+    return (uint32_t)(units * sim->grid.cell_mul[k] >> 32) >> sim->grid.cell_shift[k];
 }
 SPH_INLINE uint32_t sph_cell_of(const sph_sim *sim, const sph_pos *q)
 {

@@ -11,7 +11,7 @@ sph_move sph_stage_move(const sph_sim *sim)
 {
     const sph_stage *g = sim->stage;
     const sph_real dt = (sph_real)sim->dt, damping = g->damps ? (sph_real)sim->cfg.damping : 1;
-    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping};
+    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping, sph_rounding(sim)};
     if (sph_foresees(&sim->cfg))
         m.foresight = g->rate * foresight(dt, (sph_real)sim->now.dt_last);
     if (g->resumes && SPH_IS(sim->cfg.integrator, LEAP_FROG)) {
@@ -27,7 +27,7 @@ SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, u
                             bool all)
 {
     const sph_buffer *b = &sim->buf[sim->src];
-    const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), half = v_set((sph_real)0.5);
+    const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), part = v_set(a->part);
     vint bad = v_set_int(0);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         /* no further than a cell, and never so far that the integer overflows */
@@ -39,7 +39,7 @@ SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, u
             const vreal d = (u * a->drift + f * a->bend) * inv;
             const vint ok = v_less(v_abs(d), far);
             const vreal safe = v_where(ok, d);
-            const vint step = v_to_int(safe + v_select(v_less(safe, v_set(0)), -half, half));
+            const vint step = v_to_int(safe + v_select(v_less(safe, v_set(0)), -part, part));
             const vint q = v_load_int(b->pos[k] + i + j) + step;
             vint wrong = ~ok | v_less_int(q, v_set_int(0)) | ~v_less_int(q, v_set_int(sim->grid.extent[k]));
             if (j + SPH_W > n) /* lanes behind the run's end may hold anything */

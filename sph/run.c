@@ -65,6 +65,7 @@ typedef struct job {
 static void run_job(void *arg, uint32_t chunk, uint32_t thread)
 {
     const job *j = arg;
+    SPH_VALIDATE(sph_poison_thread(j->sim, &j->sim->thread[thread]));
     j->sim->program[j->sim->pc]->run(j->sim, j->first + chunk, &j->sim->thread[thread]);
 }
 

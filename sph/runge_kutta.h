@@ -12,11 +12,12 @@ SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const
     const sph_buffer *b = &sim->buf[sim->dst];
     sph_pos q[SPH_DIM];
     sph_real v[SPH_DIM];
+    const double part = (double)sph_rounding(sim);
     bool short_way = true;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         double s = d[k] / sim->grid.quantum;
         short_way &= sph_abs(d[k]) < sim->grid.length[k] / sim->grid.ncell[k];
-        q[k] = from[k] + (sph_pos)(short_way ? s < 0 ? s - 0.5 : s + 0.5 : 0);
+        q[k] = from[k] + (sph_pos)(short_way ? s < 0 ? s - part : s + part : 0);
         v[k] = b->vel[k][i];
     }
     if (!short_way)

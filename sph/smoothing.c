@@ -4,8 +4,13 @@
 #include "smoothed.h"
 
 #if SPH_HAS_HAT
+/* walls are smoothed by nobody: theirs is the velocity that every pair sees */
 void sph_load_smoothed(const sph_candidates *r, sph_real *to, uint32_t row)
 {
+    for (uint32_t k = 0; k < SPH_DIM && !sph_is_body(r->set); k++)
+        memcpy(to + k * row, r->tile->v[k] + r->at, r->n * sizeof(sph_real));
+    if (!sph_is_body(r->set))
+        return;
     for (uint32_t j = 0; j < r->n; j += SPH_W)
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             const uint32_t i = r->first + j;

@@ -259,4 +259,5 @@ void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bo
         sim->ranges = r < 1 ? 1 : r > SPH_MAX_RANGES ? SPH_MAX_RANGES : r;
     }
     sim->table_valid = false; /* from here on cell[] is being rebuilt */
+    SPH_VALIDATE(sph_poison_stage(sim));
 }

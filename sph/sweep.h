@@ -98,6 +98,12 @@ sph_fail sph_gather_threads(sph_sim *sim);
 bool sph_is_sorted(const sph_sim *sim);
 #define sph_is_tile_sound SPH_NAME(is_tile_sound_)
 bool sph_is_tile_sound(const sph_tile *t);
+/* Where SPH_VALIDATE is on: what a stage may not read before it wrote it is filled with what no field may be, buffer
+   dst, the cells and the scratch of a stage; a thread's scratch before every chunk. Both return true. */
+#define sph_poison_stage SPH_NAME(poison_stage_)
+bool sph_poison_stage(sph_sim *sim);
+#define sph_poison_thread SPH_NAME(poison_thread_)
+bool sph_poison_thread(const sph_sim *sim, sph_thread *t);
 
 /* tiles.c: the columns of every tile, for a run; `homes`: into the tile of homes */
 #define sph_load_tile SPH_NAME(load_tile_)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* validate.c: what SPH_VALIDATE asks after a sort and before a tile is worked off (checks.h). No array: ids are
-   marked in the scratch of thread 0, as many at a time as it has bits. */
+/* validate.c: what SPH_VALIDATE asks after a sort and before a tile is worked off (checks.h), and what it does to
+   memory that nobody may read before it was written. No array: ids are marked in the scratch of thread 0, as many at a
+   time as it has bits. */
 #include "sweep.h"
 
 /* every index of the source buffer stands at most once in buffer dst */
@@ -49,4 +50,49 @@ bool sph_is_tile_sound(const sph_tile *t)
         fine &= sum - sum == 0 && t->m[j] > 0;
     }
     return fine;
+}
+
+/* ---- poison ---- */
+
+/* Every byte: reals that are not numbers in one arena, huge ones in the next (by its address), so that two runs of a
+   scene which read them, in arenas side by side, differ. */
+static int poison_of(const sph_sim *sim) { return (uintptr_t)sim / SPH_ALIGN % 2 ? 0x7e : 0xff; }
+
+/* what a scene keeps longer than a stage is in arrays of other types than sph_real and double (arrays.h) */
+static bool of_a_stage(const char *type) { return type[0] == 'd' || (type[0] == 's' && type[4] == 'r'); }
+
+static void fill(void *array, int poison, bool wanted, size_t bytes)
+{
+    if (array && wanted)
+        memset(array, poison, bytes);
+}
+
+bool sph_poison_stage(sph_sim *sim)
+{
+    const sph_config *c = &sim->cfg;
+    const int poison = poison_of(sim);
+    for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++)
+        for (uint32_t k = 0; k < f->comps; k++)
+            fill(sph_array(&sim->buf[sim->dst], f->at + k), poison, true, SPH_ROOM(c) * f->bytes);
+    fill(sim->cell, poison, true, ((size_t)sim->grid.cells + 1) * sizeof *sim->cell);
+#define extra_reals(c, at) sim->extra_reals
+#define ONE(name, type, count, when, what) fill(sim->name, poison, of_a_stage(#type), (size_t)(count) * sizeof(type));
+#define MANY(name, type, components, count, when, what)                                                            \
+    for (uint32_t k = 0; k < (components); k++)                                                                    \
+        fill(sim->name[k], poison, of_a_stage(#type), (size_t)(count) * sizeof(type));
+    const sph_grid *const g = &sim->grid;
+    SPH_SCENE_ARRAYS(ONE, MANY)
+#undef ONE
+#undef MANY
+#undef extra_reals
+    (void)g;
+    return true;
+}
+
+bool sph_poison_thread(const sph_sim *sim, sph_thread *t)
+{
+    memset(t, poison_of(sim), offsetof(sph_thread, work));
+    memset(sim->extra + (size_t)(t - sim->thread) * sim->extra_reals, poison_of(sim),
+           sim->extra_reals * sizeof *sim->extra);
+    return true;
 }
