@@ -54,6 +54,16 @@ PNG_CFLAGS := -DHAVE_LIBPNG $(png_flags)
 PNG_LIBS   := $(png_libs)
 endif
 
+# so is zlib, for small .vtu files
+zlib_flags := $(shell $(PKG_CONFIG) --cflags zlib 2>/dev/null)
+zlib_libs  := $(or $(shell $(PKG_CONFIG) --libs zlib 2>/dev/null),-lz)
+have_zlib  := $(shell printf '\043include <zlib.h>\nint main(void){return compressBound(1)==0;}\n' | \
+                $(CC) $(zlib_flags) -x c - -o /dev/null $(zlib_libs) 2>/dev/null && echo yes)
+ifeq ($(have_zlib),yes)
+PNG_CFLAGS += -DHAVE_ZLIB $(zlib_flags)
+PNG_LIBS   += $(zlib_libs)
+endif
+
 # ---- sources ----
 
 # parts of the tests that need a source file
@@ -183,7 +193,7 @@ atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_ten
 atlas_libs := $(BUILD)/libsph1d.a $(BUILD)/libsph2f.a
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
 
-command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o cmd_list.o),$(tools_obj))
+command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o),$(tools_obj))
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
 
 # tests with a kernel of their own, whose lists are longer by the lines of tests/extra_*.h

@@ -45,9 +45,12 @@ static void put_table(const char *name, const char *head, const char *rows)
 /* `sph advise WORDS... tables=`, words up to the first null; what it said on standard output is in `said` */
 static int run(const char *const *words)
 {
-    char text[8][160], *argv[10] = {"advise", text[0]};
-    int n = 2;
-    snprintf(text[0], sizeof text[0], "tables=%s", folder);
+    char text[8][160], *argv[10] = {"advise"};
+    int n = 1;
+    if (!*words || !words[1] || !words[2] || strncmp(words[2], "tables=", 7) != 0) {
+        argv[n++] = text[0];
+        snprintf(text[0], sizeof text[0], "tables=%s", folder);
+    }
     for (; *words; words++, n++) {
         snprintf(text[n - 1], sizeof text[n - 1], "%s", *words);
         argv[n] = text[n - 1];

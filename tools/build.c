@@ -21,7 +21,7 @@ static bool get_scene(uint32_t i, build_scene *out)
         if (!scene_table[k])
             return false;
     const scene *s = scene_table[i];
-    *out = (build_scene){s->name, s->what, s->param, s->params, s->columns, s->column};
+    *out = (build_scene){s->name, s->what, s->param, s->params, s->columns, s->column, s->units};
     return true;
 }
 
@@ -92,7 +92,7 @@ static void totals(const build_sim *s, build_totals *out)
 {
     sph_totals o;
     sph_get_totals(s->sim, &o);
-    *out = (build_totals){o.fluid,     o.wall,    o.solid,        o.mass,      {0, 0, 0},    o.kinetic,
+    *out = (build_totals){o.fluid,     o.wall,    o.solid,        s->cfg.books, o.mass,      {0, 0, 0},    o.kinetic,
                           o.potential, o.internal, o.elastic,     o.plastic_work, o.wall_work, o.dissipated,
                           o.diffused,  o.removed_mass, o.max_speed, o.min_density, o.max_density};
     for (int k = 0; k < SPH_DIM; k++)
@@ -104,9 +104,19 @@ static sph_status dump(const build_sim *s, uint32_t fields, sph_sink sink, void 
     return sph_dump(s->sim, fields, sink, ctx);
 }
 
-static sph_status restore(build_sim *s, sph_source source, void *ctx)
+/* the options that may change and are parameters */
+#define TAKE_FREE(name) s->cfg.name = p[SCENE_OF_##name];
+#define TAKE_FIXED(name)
+#define TAKE(A, name, kind, start, low, high, in, allowed, change, ...) TAKE_##change(name)
+static sph_status restore(build_sim *s, const double *p, bool changed, sph_source source, void *ctx)
 {
     sph_status st = sph_restore(s->sim, source, ctx);
+    if (st)
+        return st;
+    SPH_OPTIONS(SCENE_SKIP, TAKE, )
+    for (uint32_t i = 0; i < s->scene->params; i++)
+        s->p[i] = p[i];
+    st = changed ? sph_reconfigure(s->sim, &s->cfg) : SPH_OK;
     /* a run restored after the end of its damping goes on without it */
     return st ? st : scene_between(s->sim, s->p, &s->cfg);
 }

@@ -13,6 +13,7 @@ typedef struct build_scene {
     const scene_param *param;
     uint32_t params, columns;
     const char *const *column;
+    const scene_unit *units;
 } build_scene;
 
 /* what the host adds to a scene's configuration */
@@ -24,6 +25,7 @@ typedef struct build_host {
 
 typedef struct build_totals {
     uint32_t fluid, wall, solid;
+    bool books; /* are wall_work, dissipated, diffused kept? else they are 0 and mean nothing */
     double mass, momentum[3], kinetic, potential, internal, elastic, plastic_work, wall_work, dissipated, diffused,
         removed_mass, max_speed, min_density, max_density;
 } build_totals;
@@ -49,7 +51,8 @@ typedef struct build {
     const sph_report *(*last)(const build_sim *s);
     void (*arena)(const build_sim *s, void (*fn)(void *ctx, const char *name, size_t bytes), void *ctx);
     sph_status (*dump)(const build_sim *s, uint32_t fields, sph_sink sink, void *ctx);
-    sph_status (*restore)(build_sim *s, sph_source source, void *ctx);
+    /* Restores; p has the options that may change (build_free_name) as they shall be, changed: not all as in the dump. */
+    sph_status (*restore)(build_sim *s, const double *p, bool changed, sph_source source, void *ctx);
 } build;
 
 #define BUILDS 6u
@@ -63,8 +66,14 @@ int build_find_param(const build_scene *scene, const char *name);
 bool build_parse_param(const scene_param *param, const char *text, double *out);
 /* Name of choice number i of a parameter into out, "" if there is none. */
 void build_choice(const scene_param *param, uint32_t i, char *out, size_t size);
-/* A parameter's value as text: number or choice. */
-void build_param_text(const scene_param *param, double value, char *out, size_t size);
+/* A parameter's value as text: number or choice; exact: a number with all its digits. */
+void build_param_text(const scene_param *param, double value, bool exact, char *out, size_t size);
+/* May a parameter change when a run goes on? Then the name that it has in the record "run" of a dump, else null. */
+const char *build_free_name(uint32_t param);
+/* the scene's unit for one of the kernel's manual (m, kg/m^3, J ...) */
+const char *build_unit(const build_scene *scene, const char *si);
+/* Is a column of a history out of the books (books=yes)? */
+bool build_of_books(const char *column);
 
 /* Number of edits (insert, delete, replace) between two words; for "did you mean". */
 uint32_t build_distance(const char *a, const char *b);

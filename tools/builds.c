@@ -111,10 +111,39 @@ bool build_parse_param(const scene_param *param, const char *text, double *out)
     return true;
 }
 
-void build_param_text(const scene_param *param, double value, char *out, size_t size)
+void build_param_text(const scene_param *param, double value, bool exact, char *out, size_t size)
 {
     if (param->kind == SCENE_CHOICE)
         build_choice(param, (uint32_t)value, out, size);
     else
-        snprintf(out, size, "%.10g", value);
+        snprintf(out, size, exact ? "%.17g" : "%.10g", value);
+}
+
+/* dt has had another name in dumps since the first version (sph/format.c) */
+#define FREE_NAME(A, name, kind, start, low, high, in, allowed, change, ...) FREE_NAME_##change(name)
+#define FREE_NAME_FREE(name) !strcmp(#name, "dt") ? "dt_fixed" : #name,
+#define FREE_NAME_FIXED(name) NULL,
+const char *build_free_name(uint32_t param)
+{
+    const char *const name[SCENE_COMMON_COUNT] = {SPH_OPTIONS(SCENE_SKIP, FREE_NAME, ) NULL};
+    return param < SCENE_COMMON_COUNT ? name[param] : NULL;
+}
+
+const char *build_unit(const build_scene *scene, const char *si)
+{
+    for (const scene_unit *u = scene->units; u->si; u++)
+        if (!strcmp(u->si, si))
+            return u->own;
+    return si;
+}
+
+bool build_of_books(const char *column)
+{
+    static const char *const list[] = {"dissipated", "diffused", "wall_work", "work", "energy", "error_of_energy"};
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
+        const size_t n = strlen(list[k]);
+        if (!strncmp(column, list[k], n) && (!column[n] || !strncmp(column + n, "_J", 2) || !strncmp(column + n, "_K", 2)))
+            return true;
+    }
+    return false;
 }

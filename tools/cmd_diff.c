@@ -43,25 +43,8 @@ static int compare_record(const dump_section *a, const dump_section *b)
     return differ;
 }
 
-typedef struct id_at {
-    uint32_t id, at;
-} id_at;
-static int by_id(const void *a, const void *b)
-{
-    const id_at *x = a, *y = b;
-    return (x->id > y->id) - (x->id < y->id);
-}
-static id_at *sort_ids(const dump_file *d)
-{
-    id_at *p = host_alloc(d->n * sizeof *p);
-    for (uint32_t i = 0; i < d->n; i++)
-        p[i] = (id_at){dump_id(d, i), i};
-    qsort(p, d->n, sizeof *p, by_id);
-    return p;
-}
-
 /* keeps the pairs of both that have the same id; returns how many, and tells who is alone */
-static uint32_t match(id_at *a, uint32_t na, id_at *b, uint32_t nb)
+static uint32_t match(dump_id_at *a, uint32_t na, dump_id_at *b, uint32_t nb)
 {
     uint32_t i = 0, j = 0, n = 0, alone[2] = {0, 0}, first[2] = {0, 0};
     while (i < na || j < nb) {
@@ -81,7 +64,7 @@ static uint32_t match(id_at *a, uint32_t na, id_at *b, uint32_t nb)
     return n;
 }
 
-static int compare_array(const dump_section *a, const dump_section *b, const id_at *ia, const id_at *ib, uint32_t n)
+static int compare_array(const dump_file *d, const dump_section *a, const dump_section *b, const dump_id_at *ia, const dump_id_at *ib, uint32_t n)
 {
     uint64_t differ = 0;
     uint32_t first = 0, comp = 0, worst_id = 0;
@@ -105,12 +88,12 @@ static int compare_array(const dump_section *a, const dump_section *b, const id_
     printf("%s: first at component %u of particle %u: %.17g, %.17g; %llu of %llu values differ, at most by %g %s "
            "(particle %u)\n",
            a->name, comp, ia[first].id, dump_value(a, comp, ia[first].at), dump_value(b, comp, ib[first].at),
-           (unsigned long long)differ, (unsigned long long)n * a->comps, worst, strcmp(a->unit, "1") ? a->unit : "",
+           (unsigned long long)differ, (unsigned long long)n * a->comps, worst, strcmp(a->unit, "1") ? dump_unit(d, a->unit) : "",
            worst_id);
     return 1;
 }
 
-static int compare_sections(const dump_file *a, const dump_file *b, const id_at *ia, const id_at *ib, uint32_t n)
+static int compare_sections(const dump_file *a, const dump_file *b, const dump_id_at *ia, const dump_id_at *ib, uint32_t n)
 {
     int differ = 0;
     for (uint32_t k = 0; k < a->sections; k++) {
@@ -127,7 +110,7 @@ static int compare_sections(const dump_file *a, const dump_file *b, const id_at 
             printf("%s: %s, %s\n", s->name, dump_type_name(s->type), dump_type_name(o->type));
             differ = 1;
         } else
-            differ |= compare_array(s, o, ia, ib, n);
+            differ |= compare_array(a, s, o, ia, ib, n);
     }
     for (uint32_t k = 0; k < b->sections; k++)
         if (!dump_find(a, b->section[k].name)) {
@@ -152,7 +135,7 @@ static int diff_dumps(const char *name_a, const char *name_b)
                b.real_bytes == 8 ? "double" : "float");
         differ = 1;
     }
-    id_at *ia = sort_ids(&a), *ib = sort_ids(&b);
+    dump_id_at *ia = dump_sort_ids(&a), *ib = dump_sort_ids(&b);
     uint32_t n = match(ia, a.n, ib, b.n);
     differ |= n != a.n || n != b.n;
     for (uint32_t i = 0, moved = 0; i < n && !moved; i++)
@@ -163,7 +146,8 @@ static int diff_dumps(const char *name_a, const char *name_b)
         }
     differ |= compare_sections(&a, &b, ia, ib, n);
     if (!differ)
-        printf("the same: %u particles, step %llu, t = %.9g s\n", a.n, (unsigned long long)a.step, a.time);
+        printf("the same: %u particles, step %llu, t = %.9g %s\n", a.n, (unsigned long long)a.step, a.time,
+               dump_unit(&a, "s"));
     free(ia);
     free(ib);
     dump_close(&a);

@@ -258,14 +258,14 @@ static void print_summary(const curve_options *o)
     }
 }
 
-static bool draw_curve(const curve_options *o)
+static bool draw_curve(const curve_options *o, output *picture)
 {
     static const char *const titles[] = {"longitudinal", "transverse", "exact longitudinal", "exact transverse",
                                          "growth, longitudinal", "growth, transverse"};
     static const char *const styles[] = {"lines lw 2 lc 1", "lines lw 2 lc 2", "lines dt 2 lc 1", "lines dt 2 lc 2",
                                          "lines lw 2 dt 3 lc 1", "lines lw 2 dt 3 lc 2"};
     plot p;
-    if (!plot_open(&p, o->plot, 960, 640))
+    if (!plot_open(&p, 960, 640))
         return false;
     fputs("$data << END_OF_DATA\n", p.g);
     for (uint64_t i = 1; i <= o->points; i++) {
@@ -278,7 +278,7 @@ static bool draw_curve(const curve_options *o)
     for (int k = 0; k < 6; k++)
         fprintf(p.g, "%s $data using 1:%d with %s title '%s'", k ? "," : "plot", k + 2, styles[k], titles[k]);
     fputc('\n', p.g);
-    return plot_close(&p);
+    return plot_close(&p, picture);
 }
 
 static bool parse_numbers(int argc, char **argv, curve_options *o)
@@ -323,16 +323,14 @@ static int curve(int argc, char **argv)
         put_curve(stdout, &o);
         return HOST_FINE;
     }
-    if (o.out) {
-        host_file f;
-        if (!host_create(&f, o.out))
-            return HOST_NO;
-        put_curve(f.f, &o);
-        if (!host_finish(&f, true))
-            return HOST_NO;
-    }
-    print_summary(&o);
-    return !o.plot || draw_curve(&o) ? HOST_FINE : HOST_NO;
+    output file[2] = {{0}};
+    bool fine = (!o.out || output_open(&file[0], "out", o.out)) && (!o.plot || output_open(&file[1], "plot", o.plot));
+    if (fine && o.out)
+        put_curve(file[0].f, &o);
+    if (fine)
+        print_summary(&o);
+    fine = fine && (!o.plot || draw_curve(&o, &file[1]));
+    return output_close_all(file, 2, fine) && fine ? HOST_FINE : HOST_NO;
 }
 
 int cmd_dispersion(int argc, char **argv)

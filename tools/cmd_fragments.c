@@ -6,6 +6,7 @@
 #include "gradykipp.h"
 #include "host.h"
 #include "near.h"
+#include "output.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,8 +28,8 @@ static const char help[] =
     "  by=length      what the histogram is of: the longest edge of a piece's box, or the diameter of the disc or "
     "ball\n"
     "                 of its volume (mass over rho0)\n"
-    "  k= m= c= rate= adds the density of Grady and Kipp to the histogram (sph gradykipp), SI units: k per m, m^2 or "
-    "m^3\n"
+    "  k= m= c= rate= adds the density of Grady and Kipp to the histogram (sph gradykipp), in the units of the dump\n"
+    "                 (sph info): k per length, area or volume\n"
     "  out=           pieces as CSV, largest first; histogram=: bins as CSV, of all the dumps together\n";
 
 typedef struct options {
@@ -231,15 +232,14 @@ static void print_pieces(const dump_file *d, const body *b, const options *o, co
 {
     const uint32_t shown = p->n < 20 ? p->n : 20;
     double length = 0, diameter = 0;
-    printf("%s: t = %.6g s, solid particles: %u, pieces: %u, broken particles: %u (%.2f %% of the mass)\n", d->name,
-           d->time,
-           b->n, p->n, p->broken, p->broken ? 100 * p->broken_mass / b->mass : 0);
+    printf("%s: t = %.6g %s, solid particles: %u, pieces: %u, broken particles: %u (%.2f %% of the mass)\n", d->name,
+           d->time, dump_unit(d, "s"), b->n, p->n, p->broken, p->broken ? 100 * p->broken_mass / b->mass : 0);
     if (!dump_has_field(d, "damage"))
         printf("no array damage: nothing counts as broken\n");
     if (p->n)
-        printf("%5s %9s %8s %4s %12s %8s %11s %11s %11s %11s %11s\n", "piece", "particles", "first id", "set",
-               "mass (kg)",
-               "share", "length (m)", "diameter", "edge x", "edge y", "edge z");
+        printf("masses in %s, lengths in %s\n%5s %9s %8s %4s %12s %8s %11s %11s %11s %11s %11s\n", dump_unit(d, "kg"),
+               dump_unit(d, "m"), "piece", "particles", "first id", "set", "mass", "share", "length", "diameter", "edge x",
+               "edge y", "edge z");
     for (uint32_t i = 0; i < p->n; i++) {
         const piece *q = &p->list[i];
         length += q->length / p->n;
@@ -253,7 +253,7 @@ static void print_pieces(const dump_file *d, const body *b, const options *o, co
     if (shown < p->n)
         printf("      ... and %u smaller ones\n", p->n - shown);
     if (p->n)
-        printf("mean of the pieces: length %.5g m, diameter %.5g m\n", length, diameter);
+        printf("mean of the pieces: length %.5g, diameter %.5g %s\n", length, diameter, dump_unit(d, "m"));
     static const double others[] = {0.25, 0.5, 0.75, 0.95};
     printf("pieces by threshold of damage:");
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
@@ -266,28 +266,26 @@ static void print_pieces(const dump_file *d, const body *b, const options *o, co
     putchar('\n');
 }
 
-static bool write_pieces(const dump_file *d, const body *b, const pieces *p, const char *out)
+static void write_pieces(const dump_file *d, const body *b, const pieces *p, FILE *f)
 {
-    host_file h;
-    if (!host_create(&h, out))
-        return false;
-    fprintf(h.f,
-            "# fragments of %s, t = %.17g s, %u particles broken\npiece,particles,first_id,set,mass_kg,share,length_m,"
-            "diameter_m,edge_x_m,edge_y_m,edge_z_m,x_m,y_m,z_m\n",
-            d->name, d->time, p->broken);
+    const char *const m = dump_unit(d, "m");
+    fprintf(f,
+            "# fragments of %s, t = %.17g %s, %u particles broken\npiece,particles,first_id,set,mass_%s,share,length_%s,"
+            "diameter_%s,edge_x_%s,edge_y_%s,edge_z_%s,x_%s,y_%s,z_%s\n",
+            d->name, d->time, dump_unit(d, "s"), p->broken, dump_unit(d, "kg"), m, m, m, m, m, m, m, m);
     for (uint32_t i = 0; i < p->n; i++) {
         const piece *q = &p->list[i];
-        fprintf(h.f, "%u,%u,%u,%u,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", i + 1, q->particles,
+        fprintf(f, "%u,%u,%u,%u,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", i + 1, q->particles,
                 q->first_id, q->set, q->mass, q->mass / b->mass, q->length, q->diameter, q->edge[0], q->edge[1],
                 q->edge[2],
                 q->centre[0], q->centre[1], q->centre[2]);
     }
-    return host_finish(&h, true);
 }
 
 typedef struct sizes { /* of the pieces of all dumps */
     double *size, *mass, whole;
     uint32_t n;
+    char metre[32]; /* unit of lengths of the first dump */
 } sizes;
 
 static void add_sizes(sizes *s, const pieces *p, bool by_length)
@@ -311,6 +309,13 @@ static double theory(const gradykipp *g, double from, double to)
     return sum / n;
 }
 
+/* pieces without a size are in the first one */
+static uint64_t bin_of(double size, double width, uint64_t bins)
+{
+    const double at = width > 0 ? size / width : 0;
+    return at > 0 ? at < (double)bins ? (uint64_t)at : bins - 1 : 0;
+}
+
 static void put_histogram(FILE *f, const sizes *s, const options *o, const char *format, const char *theory_format)
 {
     double most = 0;
@@ -321,7 +326,7 @@ static void put_histogram(FILE *f, const sizes *s, const options *o, const char 
         uint32_t count = 0;
         double mass = 0;
         for (uint32_t i = 0; i < s->n; i++)
-            if ((uint64_t)(s->size[i] / width) == k) {
+            if (bin_of(s->size[i], width, o->bins) == k) {
                 count++;
                 mass += s->mass[i];
             }
@@ -332,27 +337,26 @@ static void put_histogram(FILE *f, const sizes *s, const options *o, const char 
     }
 }
 
-static bool show_histogram(const sizes *s, const options *o)
+static void show_histogram(const sizes *s, const options *o, FILE *f)
 {
-    host_file h;
     if (!s->n)
-        return true;
-    printf("\n%12s %12s %8s %10s %12s%s\n", "from (m)", "to", "pieces", "of mass", "per m",
-           o->has_theory ? "  Grady-Kipp" : "");
+        return;
+    printf("\n%12s %12s %8s %10s %12s%s (lengths in %s)\n", "from", "to", "pieces", "of mass", "a length",
+           o->has_theory ? "  Grady-Kipp" : "", s->metre);
     put_histogram(stdout, s, o, "%12.6g %12.6g %8u %10.5f %12.6g", " %11.6g");
-    if (!o->histogram)
-        return true;
-    if (!host_create(&h, o->histogram))
-        return false;
-    fprintf(h.f, "# sizes by %s of %u pieces\nfrom_m,to_m,pieces,share_of_mass,density_per_m%s\n",
-            o->by_length ? "length" : "diameter", s->n, o->has_theory ? ",gradykipp_per_m" : "");
-    put_histogram(h.f, s, o, "%.12g,%.12g,%u,%.12g,%.12g", ",%.12g");
-    return host_finish(&h, true);
+    if (!f)
+        return;
+    fprintf(f, "# sizes by %s of %u pieces\nfrom_%s,to_%s,pieces,share_of_mass,density_per_%s", o->by_length ? "length" :
+            "diameter", s->n, s->metre, s->metre, s->metre);
+    if (o->has_theory)
+        fprintf(f, ",gradykipp_per_%s", s->metre);
+    fputc('\n', f);
+    put_histogram(f, s, o, "%.12g,%.12g,%u,%.12g,%.12g", ",%.12g");
 }
 
 /* ---- the command ---- */
 
-static bool one_dump(const char *name, options *o, sizes *s)
+static bool one_dump(const char *name, options *o, sizes *s, FILE *out)
 {
     dump_file d;
     body b;
@@ -365,8 +369,11 @@ static bool one_dump(const char *name, options *o, sizes *s)
         fine = find_pieces(&d, &b, o, o->damage, &p);
         if (fine) {
             print_pieces(&d, &b, o, &p);
+            if (!*s->metre)
+                snprintf(s->metre, sizeof s->metre, "%s", dump_unit(&d, "m"));
             add_sizes(s, &p, o->by_length);
-            fine = !o->out || write_pieces(&d, &b, &p, o->out);
+            if (out)
+                write_pieces(&d, &b, &p, out);
         }
         free(p.list);
         free_body(&b);
@@ -415,7 +422,8 @@ int cmd_fragments(int argc, char **argv)
     static const char *const known[] = {"damage", "link", "across", "least", "by",  "bins",      "k",
                                         "m",      "c",    "rate",   "out",   "histogram", NULL};
     options o;
-    sizes s = {NULL, NULL, 0, 0};
+    sizes s = {0};
+    output file[2] = {{0}};
     host_command("fragments");
     if (host_help(argc, argv, help))
         return HOST_FINE;
@@ -426,10 +434,17 @@ int cmd_fragments(int argc, char **argv)
         return host_usage("give at least one dump");
     if (o.out && files > 1)
         return host_usage("out= takes the pieces of one dump, %d were given", files);
-    bool fine = true;
+    bool fine = (!o.out || output_open(&file[0], "out", o.out)) &&
+                (!o.histogram || output_open(&file[1], "histogram", o.histogram));
     for (int i = 1; fine && i <= files; i++)
-        fine = one_dump(argv[i], &o, &s);
-    fine = fine && show_histogram(&s, &o);
+        fine = one_dump(argv[i], &o, &s, file[0].f);
+    if (fine)
+        show_histogram(&s, &o, file[1].f);
+    if (fine && file[1].f && !s.n) {
+        output_close(&file[1], false);
+        printf("no pieces: %s is not written\n", o.histogram);
+    }
+    fine = output_close_all(file, 2, fine) && fine;
     free(s.size);
     free(s.mass);
     return fine ? HOST_FINE : HOST_NO;

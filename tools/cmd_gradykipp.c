@@ -62,23 +62,19 @@ static void put_curves(FILE *f, gradykipp g, const double *rate, uint32_t n, uin
     }
 }
 
-static bool write_curves(const gradykipp *g, const double *rate, uint32_t n, uint64_t points, const char *out)
+static void write_curves(const gradykipp *g, const double *rate, uint32_t n, uint64_t points, FILE *f)
 {
-    host_file f;
-    if (!host_create(&f, out))
-        return false;
-    fprintf(f.f, "# gradykipp: k %g, m %g, c %g, dim %u\nsize", g->k, g->m, g->crack_speed, g->dim);
+    fprintf(f, "# gradykipp: k %g, m %g, c %g, dim %u\nsize", g->k, g->m, g->crack_speed, g->dim);
     for (uint32_t r = 0; r < n; r++)
-        fprintf(f.f, ",F_rate_%g", rate[r]);
-    fputc('\n', f.f);
-    put_curves(f.f, *g, rate, n, points, ',');
-    return host_finish(&f, true);
+        fprintf(f, ",F_rate_%g", rate[r]);
+    fputc('\n', f);
+    put_curves(f, *g, rate, n, points, ',');
 }
 
-static bool draw_curves(const gradykipp *g, const double *rate, uint32_t n, uint64_t points, const char *out)
+static bool draw_curves(const gradykipp *g, const double *rate, uint32_t n, uint64_t points, output *o)
 {
     plot p;
-    if (!plot_open(&p, out, 960, 640))
+    if (!plot_open(&p, 960, 640))
         return false;
     fputs("$data << END_OF_DATA\n", p.g);
     put_curves(p.g, *g, rate, n, points, ' ');
@@ -86,7 +82,30 @@ static bool draw_curves(const gradykipp *g, const double *rate, uint32_t n, uint
     for (uint32_t r = 0; r < n; r++)
         fprintf(p.g, "%s $data using 1:%u with lines lw 2 title 'strain rate %g'", r ? "," : "plot", r + 2, rate[r]);
     fputc('\n', p.g);
-    return plot_close(&p);
+    return plot_close(&p, o);
+}
+
+static void print_sizes(gradykipp g, const double *rate, uint32_t rates)
+{
+    printf("k %g, m %g, c %g, dim %u, ln alpha %.9g\n", g.k, g.m, g.crack_speed, g.dim, gradykipp_ln_alpha(&g));
+    printf("%12s %12s %12s %12s %12s %12s %12s\n", "rate", "t_f", "L_M", "L_printed", "mean", "mean_number", "largest");
+    for (uint32_t r = 0; r < rates; r++) {
+        g.rate = rate[r];
+        printf("%12.6g %12.6g %12.6g %12.6g %12.6g %12.6g %12.6g\n", g.rate, gradykipp_time(&g), gradykipp_peak(&g),
+               gradykipp_peak_printed(&g), gradykipp_mean(&g), gradykipp_mean_number(&g), gradykipp_largest(&g));
+    }
+}
+
+/* the files that were asked for, both or none */
+static int write_files(const gradykipp *g, const double *rate, uint32_t n, uint64_t points, const char *out,
+                       const char *picture)
+{
+    output o[2] = {{0}};
+    bool fine = (!out || output_open(&o[0], "out", out)) && (!picture || output_open(&o[1], "plot", picture));
+    if (fine && out)
+        write_curves(g, rate, n, points, o[0].f);
+    fine = fine && (!picture || draw_curves(g, rate, n, points, &o[1]));
+    return output_close_all(o, 2, fine) && fine ? HOST_FINE : HOST_NO;
 }
 
 int cmd_gradykipp(int argc, char **argv)
@@ -110,16 +129,6 @@ int cmd_gradykipp(int argc, char **argv)
         ((text = host_option(argc, argv, "plot")) && !plot_name("plot", text)))
         return HOST_USAGE;
     g.dim = (uint32_t)dim;
-    printf("k %g, m %g, c %g, dim %u, ln alpha %.9g\n", g.k, g.m, g.crack_speed, g.dim, gradykipp_ln_alpha(&g));
-    printf("%12s %12s %12s %12s %12s %12s %12s\n", "rate", "t_f", "L_M", "L_printed", "mean", "mean_number", "largest");
-    for (uint32_t r = 0; r < rates; r++) {
-        g.rate = rate[r];
-        printf("%12.6g %12.6g %12.6g %12.6g %12.6g %12.6g %12.6g\n", g.rate, gradykipp_time(&g), gradykipp_peak(&g),
-               gradykipp_peak_printed(&g), gradykipp_mean(&g), gradykipp_mean_number(&g), gradykipp_largest(&g));
-    }
-    if ((text = host_option(argc, argv, "out")) && !write_curves(&g, rate, rates, points, text))
-        return HOST_NO;
-    if ((text = host_option(argc, argv, "plot")) && !draw_curves(&g, rate, rates, points, text))
-        return HOST_NO;
-    return HOST_FINE;
+    print_sizes(g, rate, rates);
+    return write_files(&g, rate, rates, points, host_option(argc, argv, "out"), host_option(argc, argv, "plot"));
 }

@@ -128,26 +128,21 @@ static bool summarise(const table *h, const char *list)
     return true;
 }
 
-static int write_columns(const table *h, const char *list, const char *out)
+static bool write_columns(const table *h, const char *list, FILE *f)
 {
     pick p[TABLE_COLUMNS];
-    host_file f;
-    uint32_t n = choose(h, list, p);
-    if (!n)
-        return HOST_USAGE;
-    if (!host_create(&f, out))
-        return HOST_NO;
+    const uint32_t n = choose(h, list, p);
     if (*h->title)
-        fprintf(f.f, "# %s\n", h->title);
+        fprintf(f, "# %s\n", h->title);
     for (uint32_t k = 0; k < n; k++)
-        fprintf(f.f, "%s%s", k ? "," : "", p[k].name);
-    fputc('\n', f.f);
-    for (uint32_t i = 0; i < h->rows; i++) {
+        fprintf(f, "%s%s", k ? "," : "", p[k].name);
+    fputc('\n', f);
+    for (uint32_t i = 0; i < h->rows && n; i++) {
         for (uint32_t k = 0; k < n; k++)
-            fprintf(f.f, "%s%.17g", k ? "," : "", picked(h, i, &p[k]));
-        fputc('\n', f.f);
+            fprintf(f, "%s%.17g", k ? "," : "", picked(h, i, &p[k]));
+        fputc('\n', f);
     }
-    return host_finish(&f, true) ? HOST_FINE : HOST_NO;
+    return n > 0;
 }
 
 /* ---- plot ---- */
@@ -172,6 +167,11 @@ static void put_curves(FILE *g, const char *name, uint32_t number, const table *
         *first = false;
     }
 }
+
+typedef struct plot_options {
+    const char *list, *reference;
+    int width, height;
+} plot_options;
 
 typedef struct curves {
     table h;
@@ -210,27 +210,27 @@ static void put_script(FILE *g, const curves *c, uint32_t files, uint32_t refs)
     fputs("\n", g);
 }
 
-static int run_gnuplot(const curves *c, uint32_t files, uint32_t refs, const char *out, int width, int height)
+static bool run_gnuplot(const curves *c, uint32_t files, uint32_t refs, const plot_options *o, output *picture)
 {
     plot p;
-    if (!plot_open(&p, out, width, height))
-        return HOST_NO;
+    if (!plot_open(&p, o->width, o->height))
+        return false;
     put_script(p.g, c, files, refs);
-    return plot_close(&p) ? HOST_FINE : HOST_NO;
+    return plot_close(&p, picture);
 }
 
-static int plot_files(char **files, uint32_t n, const char *list, const char *reference, const char *out, int width,
-                int height)
+static bool plot_files(char **files, uint32_t n, const plot_options *o, output *picture)
 {
     curves *c = host_alloc((n + 1) * sizeof *c);
-    uint32_t read = 0, all = n + (reference != NULL);
-    while (read < all && read_curves(&c[read], read < n ? files[read] : reference, read < n ? list : NULL))
+    uint32_t read = 0;
+    const uint32_t all = n + (o->reference != NULL);
+    while (read < all && read_curves(&c[read], read < n ? files[read] : o->reference, read < n ? o->list : NULL))
         read++;
-    int result = read == all ? run_gnuplot(c, n, all - n, out, width, height) : HOST_NO;
+    const bool fine = read == all && run_gnuplot(c, n, all - n, o, picture);
     for (uint32_t k = 0; k < read; k++)
         table_close(&c[k].h);
     free(c);
-    return result;
+    return fine;
 }
 
 /* ---- the command ---- */
@@ -251,10 +251,26 @@ static int summarise_all(char **files, int n, const char *list)
     return result;
 }
 
+/* the columns and the picture that were asked for, both or none */
+static int write_files(char **files, uint32_t n, const plot_options *o, const char *out, const char *image)
+{
+    output file[2] = {{0}};
+    bool fine = (!out || output_open(&file[0], "out", out)) && (!image || output_open(&file[1], "plot", image));
+    int code = HOST_NO;
+    table h;
+    if (fine && out && (fine = table_open(&h, files[0]))) {
+        fine = write_columns(&h, o->list, file[0].f);
+        code = fine ? HOST_NO : HOST_USAGE;
+        table_close(&h);
+    }
+    fine = fine && (!image || plot_files(files, n, o, &file[1]));
+    return output_close_all(file, 2, fine) && fine ? HOST_FINE : code;
+}
+
 int cmd_history(int argc, char **argv)
 {
     static const char *const known[] = {"columns", "out", "plot", "reference", "size", NULL};
-    int width = 960, height = 640, result = HOST_FINE;
+    int width = 960, height = 640;
     char rest;
     host_command("history");
     if (host_help(argc, argv, help))
@@ -276,14 +292,6 @@ int cmd_history(int argc, char **argv)
         return host_usage("reference= is for plot=");
     if (out && files > 1)
         return host_usage("out= takes one history file, %d were given", files);
-    if (out) {
-        table h;
-        if (!table_open(&h, argv[1]))
-            return HOST_NO;
-        result = write_columns(&h, list, out);
-        table_close(&h);
-    }
-    if (image && !result)
-        result = plot_files(argv + 1, (uint32_t)files, list, reference, image, width, height);
-    return out || image ? result : summarise_all(argv + 1, files, list);
+    const plot_options o = {list, reference, width, height};
+    return out || image ? write_files(argv + 1, (uint32_t)files, &o, out, image) : summarise_all(argv + 1, files, list);
 }

@@ -9,9 +9,10 @@
 static const char help[] =
     "usage: sph info DUMP...\n"
     "Prints what a dump holds: the records (scene, sets, groups, run, state) field by field with units, then its\n"
-    "arrays with type, unit, count and range. Every checksum is verified on the way.\n";
+    "arrays with type, unit, count and range; then the notes of the\n"
+    "program that wrote it: scene, units, parameters. Units are the scene's where the notes name them. Every checksum is verified on the way.\n";
 
-static void print_value(const dump_section *s, const dump_member *m, uint64_t row)
+static void print_value(const dump_file *d, const dump_section *s, const dump_member *m, uint64_t row)
 {
     for (uint32_t k = 0; k < m->comps; k++) {
         uint64_t bits = dump_member_bits(s, m, row, k);
@@ -24,10 +25,10 @@ static void print_value(const dump_section *s, const dump_member *m, uint64_t ro
         else
             printf("%s%llu", k ? ", " : "", (unsigned long long)bits);
     }
-    printf("%s%s", strcmp(m->unit, "1") ? " " : "", strcmp(m->unit, "1") ? m->unit : "");
+    printf("%s%s", strcmp(m->unit, "1") ? " " : "", strcmp(m->unit, "1") ? dump_unit(d, m->unit) : "");
 }
 
-static void print_record(const dump_section *s)
+static void print_record(const dump_file *d, const dump_section *s)
 {
     dump_member m;
     for (uint64_t row = 0; row < s->count; row++) {
@@ -37,16 +38,16 @@ static void print_record(const dump_section *s)
             printf("%s\n", s->name);
         for (uint32_t f = 0; dump_get_member(s, f, &m); f++) {
             printf("  %-16s ", m.name);
-            print_value(s, &m, row);
+            print_value(d, s, &m, row);
             putchar('\n');
         }
     }
 }
 
-static void print_array(const dump_section *s)
+static void print_array(const dump_file *d, const dump_section *s)
 {
     printf("  %-8s %-4s %u x %llu, %s:", s->name, dump_type_name(s->type), s->comps, (unsigned long long)s->count,
-           strcmp(s->unit, "1") ? s->unit : "no unit");
+           strcmp(s->unit, "1") ? dump_unit(d, s->unit) : "no unit");
     for (uint32_t k = 0; k < s->comps && s->count; k++) {
         double low = dump_value(s, k, 0), high = low;
         for (uint64_t i = 1; i < s->count; i++) {
@@ -72,11 +73,14 @@ static void print_dump(const dump_file *d)
            by_role[DUMP_SOLID], by_role[DUMP_GHOST], by_role[DUMP_FORCE_WALL], by_role[DUMP_GONE]);
     for (uint32_t k = 0; k < d->sections; k++)
         if (d->section[k].type == DUMP_RECORD)
-            print_record(&d->section[k]);
+            print_record(d, &d->section[k]);
     printf("arrays\n");
     for (uint32_t k = 0; k < d->sections; k++)
         if (d->section[k].type != DUMP_RECORD && strcmp(d->section[k].name, "end") != 0)
-            print_array(&d->section[k]);
+            print_array(d, &d->section[k]);
+    printf(d->notes_bytes ? "notes\n  " : "");
+    for (size_t i = 0; i < d->notes_bytes; i++)
+        fputs(d->notes[i] != '\n' ? (char[]){d->notes[i], '\0'} : i + 1 < d->notes_bytes ? "\n  " : "\n", stdout);
 }
 
 static bool info_one(const dump_file *d, const char *name)

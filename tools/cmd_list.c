@@ -40,9 +40,9 @@ static void print_csv(const build *b, const build_scene *s)
     char value[64], min[64], max[64];
     for (uint32_t i = 0; i < s->params; i++) {
         const scene_param *p = &s->param[i];
-        build_param_text(p, p->value, value, sizeof value);
+        build_param_text(p, p->value, false, value, sizeof value);
         range_text(p, min, max, sizeof min);
-        printf("%s,%u,%s,%s,%s,%s,%s,\"%s\"\n", s->name, b->dimension, p->name, p->unit, value, min, max, p->what);
+        printf("%s,%u,%s,%s,%s,%s,%s,\"%s\"\n", s->name, b->dimension, p->name, build_unit(s, p->unit), value, min, max, p->what);
     }
 }
 
@@ -53,15 +53,20 @@ static void print_scene(const build *b, const build_scene *s)
     printf("\n%-12s %-19s %-10s %-20s %s\n", "parameter", "default", "unit", "range", "what");
     for (uint32_t i = 0; i < s->params; i++) {
         const scene_param *p = &s->param[(i + SCENE_COMMON_COUNT) % s->params]; /* the scene's own first */
-        build_param_text(p, p->value, value, sizeof value);
+        build_param_text(p, p->value, false, value, sizeof value);
         range_text(p, min, max, sizeof min);
         snprintf(range, sizeof range, "%s .. %s", min, max);
-        printf("%-12s %-19s %-10s %-20s %s\n", p->name, value, p->unit, p->kind == SCENE_CHOICE ? "a name" : range,
+        printf("%-12s %-19s %-10s %-20s %s\n", p->name, value, build_unit(s, p->unit), p->kind == SCENE_CHOICE ? "a name" : range,
                p->what);
     }
-    printf("\nhistory:");
+    static const char *const si[] = {"m", "s", "m/s", "kg/m^3", "Pa", "kg", "J"};
+    static const char *const of[] = {"lengths", "times", "speeds", "densities", "stresses", "masses", "energies"};
+    printf("\nunits:");
+    for (size_t k = 0; k < sizeof si / sizeof *si; k++)
+        printf("%s %s %s", k ? "," : "", of[k], build_unit(s, si[k]));
+    printf("\nhistory (* with books=yes only):");
     for (uint32_t i = 0; i < s->columns; i++)
-        printf(" %s", s->column[i]);
+        printf(" %s%s", s->column[i], build_of_books(s->column[i]) ? "*" : "");
     printf("\n");
 }
 

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "dumpfile.h"
 #include "host.h"
+#include "output.h"
 #include "sample.h"
 
 #include <math.h>
@@ -16,10 +17,11 @@ static const char help[] =
     "[options]\n"
     "Samples fields at n places along a line (1-D: from=X to=X; 3-D: from=X,Y,Z) or an ellipse of a 2-D dump (centre "
     "and\n"
-    "radii in m, angles in degrees: x = X + RX cos a, y = Y + RY sin a).\n"
+    "radii in the dump's lengths, angles in degrees: x = X + RX cos a, y = Y + RY sin a).\n"
     "  field=         " DUMP_FIELDS "\n"
     "                 and displacement_x.. with reference=; up to 8\n"
-    "  order=1        moving least squares, exact for linear fields up to a free surface; 0: Shepard's mean\n"
+    "  order=1        moving least squares, exact for linear fields up to a free surface; where no particle is within\n"
+    "                 sqrt(dimension) spacings, and from too few particles, Shepard's mean (column order); 0: that alone\n"
     "  reach=2.5      distance in spacings where a particle's weight ends\n"
     "  of=            solid, fluid or all: the particles that count (default: solids if there are any)\n"
     "  reference=DUMP an earlier dump of the same run: particles are taken where they were then (by id), so that a "
@@ -42,9 +44,10 @@ enum { OF_SOLID, OF_FLUID, OF_ALL, OF_ANY };
 
 /* particles that count: where they are (or were), their fields */
 typedef struct cloud {
-    uint32_t n, dim;
+    uint32_t n, own, room, dim; /* own: of the dump; behind them their images */
     double (*x)[3], *volume, *field[SAMPLE_FIELDS];
     double period[3], lo[3], spacing, time;
+    char metre[32], second[32]; /* units */
 } cloud;
 
 static void free_cloud(cloud *c)
@@ -56,20 +59,6 @@ static void free_cloud(cloud *c)
 }
 
 /* ---- particles ---- */
-
-/* place of every id in the reference dump, UINT32_MAX where it is not there */
-static uint32_t *places_by_id(const dump_file *d, uint32_t *most)
-{
-    *most = 0;
-    for (uint32_t i = 0; i < d->n; i++)
-        *most = dump_id(d, i) + 1 > *most ? dump_id(d, i) + 1 : *most;
-    uint32_t *at = host_alloc((size_t)*most * sizeof *at);
-    memset(at, 0xff, (size_t)*most * sizeof *at);
-    for (uint32_t i = 0; i < d->n; i++)
-        if (dump_set(d, i) != DUMP_DEAD)
-            at[dump_id(d, i)] = i;
-    return at;
-}
 
 static bool counts(const dump_file *d, uint32_t i, int of)
 {
@@ -100,7 +89,7 @@ static bool read_field(const dump_file *d, const options *o, cloud *c, const uin
 {
     const char *unit;
     const int axis = displacement_axis(o->field[f], d->dim);
-    c->field[f] = host_alloc(c->n * sizeof(double));
+    c->field[f] = host_alloc(c->room * sizeof(double));
     if (axis >= 0 && !o->reference) {
         host_usage("field=%s: needs reference=, the dump that it is from", o->field[f]);
         return false;
@@ -115,14 +104,13 @@ static bool read_field(const dump_file *d, const options *o, cloud *c, const uin
 
 static void gather(const dump_file *d, const dump_file *ref, const options *o, cloud *c, uint32_t *at)
 {
-    uint32_t most = 0, *then = ref ? places_by_id(ref, &most) : NULL;
+    dump_id_at *then = ref ? dump_sort_ids(ref) : NULL;
     int of = o->of == OF_ANY ? OF_FLUID : o->of;
     for (uint32_t i = 0; o->of == OF_ANY && i < d->n; i++)
         of = dump_role(d, i) == DUMP_SOLID ? OF_SOLID : of;
     for (uint32_t i = 0; i < d->n; i++) {
-        const uint32_t id = dump_id(d, i), was = !ref ? i : id < most ? then[id] : UINT32_MAX;
-        const uint32_t set = dump_set(d, i);
-        if (!counts(d, i, of) || was == UINT32_MAX)
+        const uint32_t was = !ref ? i : dump_place(then, ref->n, dump_id(d, i)), set = dump_set(d, i);
+        if (!counts(d, i, of) || was == UINT32_MAX || (ref && dump_set(ref, was) == DUMP_DEAD))
             continue;
         for (uint32_t k = 0; k < 3; k++)
             c->x[c->n][k] = k < d->dim ? dump_x(ref ? ref : d, was, k) : 0;
@@ -133,12 +121,69 @@ static void gather(const dump_file *d, const dump_file *ref, const options *o, c
     free(then);
 }
 
+/* ---- images behind mirror faces: the kernel's particles see them, and so does a sample there ---- */
+
+/* what a mirror across an axis makes of a field */
+static double mirrored(const dump_file *d, const char *field, uint32_t axis, bool no_slip)
+{
+    const int shift = displacement_axis(field, d->dim);
+    return shift >= 0 ? (uint32_t)shift == axis ? -1 : 1 : dump_field_mirrored(d, field, axis, no_slip);
+}
+
+static void grow(cloud *c, uint32_t fields)
+{
+    if (c->n < c->room)
+        return;
+    c->room = c->n + c->n / 2 + 64;
+    c->x = host_realloc(c->x, c->room * sizeof *c->x);
+    c->volume = host_realloc(c->volume, c->room * sizeof *c->volume);
+    for (uint32_t f = 0; f < fields; f++)
+        c->field[f] = host_realloc(c->field[f], c->room * sizeof(double));
+}
+
+/* images of all that is within reach of one face; done axis by axis, images of images are those in corners */
+static void add_images(const dump_file *d, const options *o, cloud *c, uint32_t axis, uint32_t side, bool no_slip)
+{
+    const double plane = side ? d->hi[axis] : d->lo[axis], reach = o->reach * c->spacing;
+    const char letter[] = {(char)('x' + axis), '\0'};
+    double sign[SAMPLE_FIELDS], shift[SAMPLE_FIELDS];
+    for (uint32_t f = 0; f < o->fields; f++) {
+        const bool place = !strcmp(o->field[f], letter); /* the coordinate itself */
+        sign[f] = place ? -1 : mirrored(d, o->field[f], axis, no_slip);
+        shift[f] = place ? 2 * plane : 0;
+    }
+    for (uint32_t j = 0, n = c->n; j < n; j++) {
+        /* on the plane itself a particle is its own image */
+        if (!(fabs(c->x[j][axis] - plane) < reach && fabs(c->x[j][axis] - plane) > 1e-9 * c->spacing))
+            continue;
+        grow(c, o->fields);
+        memcpy(c->x[c->n], c->x[j], sizeof c->x[j]);
+        c->x[c->n][axis] = 2 * plane - c->x[j][axis];
+        c->volume[c->n] = c->volume[j];
+        for (uint32_t f = 0; f < o->fields; f++)
+            c->field[f][c->n] = shift[f] + sign[f] * c->field[f][j];
+        c->n++;
+    }
+}
+
+static void add_all_images(const dump_file *d, const options *o, cloud *c)
+{
+    bool no_slip;
+    for (uint32_t axis = 0; axis < d->dim; axis++)
+        for (uint32_t side = 0; side < 2; side++)
+            if (dump_mirror(d, axis, side, &no_slip))
+                add_images(d, o, c, axis, side, no_slip);
+}
+
 static bool read_cloud(const dump_file *d, const dump_file *ref, const options *o, cloud *c)
 {
     memset(c, 0, sizeof *c);
     c->dim = d->dim;
     c->spacing = d->spacing;
     c->time = d->time;
+    c->room = d->n;
+    snprintf(c->metre, sizeof c->metre, "%s", dump_unit(d, "m"));
+    snprintf(c->second, sizeof c->second, "%s", dump_unit(d, "s"));
     for (uint32_t k = 0; k < d->dim; k++) {
         c->lo[k] = d->lo[k];
         c->period[k] = dump_periodic(d, k) ? d->hi[k] - d->lo[k] : 0;
@@ -153,7 +198,10 @@ static bool read_cloud(const dump_file *d, const dump_file *ref, const options *
     for (uint32_t f = 0; fine && f < o->fields; f++)
         fine = read_field(d, o, c, at, f);
     free(at);
-    if (!fine)
+    c->own = c->n;
+    if (fine)
+        add_all_images(d, o, c);
+    else
         free_cloud(c);
     return fine;
 }
@@ -215,10 +263,10 @@ static void print_extremes(const options *o, const cloud *c, const char *name, c
                            const double (*x)[3],
                            uint64_t samples)
 {
-    bool *close = host_alloc(c->n * sizeof *close);
-    for (uint32_t j = 0; j < c->n; j++)
+    bool *close = host_alloc(c->own * sizeof *close);
+    for (uint32_t j = 0; j < c->own; j++)
         close[j] = is_near(o, c, j);
-    printf("%s: t = %.6g s\n", name, c->time);
+    printf("%s: t = %.6g %s\n", name, c->time, c->second);
     for (uint32_t f = 0; f < o->fields; f++)
         for (int least = 0; least < 2; least++) {
             int64_t s = -1, p = -1;
@@ -226,7 +274,7 @@ static void print_extremes(const options *o, const cloud *c, const char *name, c
                 const double v = value[i * o->fields + f], best = s < 0 ? 0 : value[(uint64_t)s * o->fields + f];
                 s = s < 0 || (least ? v < best : v > best) ? (int64_t)i : s;
             }
-            for (uint32_t j = 0; j < c->n; j++)
+            for (uint32_t j = 0; j < c->own; j++)
                 if (close[j] && (p < 0 || (least ? c->field[f][j] < c->field[f][p] : c->field[f][j] > c->field[f][p])))
                     p = j;
             printf("  %s %s:", least ? "smallest" : "largest ", o->field[f]);
@@ -244,13 +292,13 @@ static void print_extremes(const options *o, const cloud *c, const char *name, c
     free(close);
 }
 
-static void put_names(FILE *f, const options *o, uint32_t dim)
+static void put_names(FILE *f, const options *o, const cloud *c)
 {
-    fputs("time_s,s_m", f);
+    fprintf(f, "time_%s,s_%s", c->second, c->metre);
     if (o->ellipse_text)
         fputs(",angle_deg", f);
-    for (uint32_t k = 0; k < dim; k++)
-        fprintf(f, ",%c_m", (int)('x' + k));
+    for (uint32_t k = 0; k < c->dim; k++)
+        fprintf(f, ",%c_%s", (int)('x' + k), c->metre);
     for (uint32_t k = 0; k < o->fields; k++)
         fprintf(f, ",%s", o->field[k]);
     fputs(",particles,order\n", f);
@@ -334,7 +382,7 @@ static int one_dump(FILE *f, const char *name, options *o, bool *headed, uint32_
             host_no("%s: is %u-D, %s is %u-D", o->reference, ref.dim, name, d.dim);
         else if (read_cloud(&d, o->reference ? &ref : NULL, o, &c)) {
             if (!*headed)
-                put_names(f, o, d.dim);
+                put_names(f, o, &c);
             *headed = true;
             *dim = d.dim;
             result = put_profile(f, o, &c, name) ? HOST_FINE : HOST_NO;
@@ -402,7 +450,7 @@ int cmd_profile(int argc, char **argv)
     static const char *const known[] = {"field", "from",  "to", "ellipse",   "angles", "n",
                                         "order", "reach", "of", "reference", "within", "out", NULL};
     options o;
-    host_file h = {stdout, NULL, NULL};
+    output file;
     host_command("profile");
     if (host_help(argc, argv, help))
         return HOST_FINE;
@@ -412,13 +460,15 @@ int cmd_profile(int argc, char **argv)
     if (files == 0)
         return host_usage("give at least one dump");
     int result = parse_options(argc, argv, &o) ? HOST_FINE : HOST_USAGE;
-    bool headed = false, open = !result && o.out && host_create(&h, o.out);
+    bool headed = false, open = !result;
     uint32_t dim = 0;
-    if (!result && o.out && !open)
+    if (open && !o.out)
+        output_standard(&file);
+    else if (open && !(open = output_open(&file, "out", o.out)))
         result = HOST_NO;
     for (int i = 1; !result && i <= files; i++)
-        result = one_dump(h.f, argv[i], &o, &headed, &dim);
-    if (open && !host_finish(&h, !result))
+        result = one_dump(file.f, argv[i], &o, &headed, &dim);
+    if (open && !output_close(&file, !result))
         result = HOST_NO;
     free(o.fields_text);
     return result;

@@ -5,6 +5,7 @@
 #include "dumpfile.h"
 #include "host.h"
 #include "image.h"
+#include "output.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,9 +20,9 @@ static const char help[] =
     "                 vectors as far below 0 as above)\n"
     "  palette=       even (violet to yellow) or signed (blue below 0, grey, red above; the default for the latter)\n"
     "  size=WxH       in pixels, default 960x640\n"
-    "  view=A,B,C,D   the part shown, in m: from A to B across and from C to D up (default: all particles)\n"
+    "  view=A,B,C,D   the part shown, in the dump's lengths: from A to B across and from C to D up (default: all particles)\n"
     "  walls=yes|no   wall particles in grey (default yes)\n"
-    "  3-D:  slice=AXIS,POSITION,THICKNESS   shows the particles of a slice, e.g. slice=y,0.5,0.1 (m)\n"
+    "  3-D:  slice=AXIS,POSITION,THICKNESS   shows the particles of a slice, e.g. slice=y,0.5,0.1\n"
     "        azimuth=30 elevation=20         directions (degrees) of the projection that is drawn without a slice\n"
     "  1-D:  the field against x; min and max are the range of the vertical axis\n";
 
@@ -44,10 +45,13 @@ typedef struct scene {
     dot *dot;
     uint32_t n;
     double x0, x1, y0, y1; /* part shown, m */
-    const char *unit, *across, *up;
+    const char *unit;
+    char across[48], up[48];
 } scene;
 
 enum { EVEN, SIGNED, BY_FIELD };
+#define FARTHEST 1e30   /* places and values */
+#define NARROWEST 1e-9  /* width of a view or a range, of its largest number: ticks must tell numbers apart */
 
 static const colour white = {255, 255, 255}, black = {20, 20, 20}, grey = {170, 170, 170};
 
@@ -88,20 +92,34 @@ static int far_first(const void *a, const void *b)
 
 static void name_axes(scene *s, const options *o, const dump_file *d)
 {
-    static const char *const name[] = {"x (m)", "y (m)", "z (m)"};
-    s->across = name[0];
-    s->up = d->dim == 1 ? "" : name[1];
-    if (d->dim == 3) {
-        s->across = o->has_slice ? name[o->slice_axis == 0 ? 1 : 0] : "across (m)";
-        s->up = o->has_slice ? name[o->slice_axis == 2 ? 1 : 2] : "up (m)";
+    const char *const metre = dump_unit(d, "m");
+    const uint32_t across = d->dim == 3 && o->slice_axis == 0 ? 1 : 0, up = d->dim == 3 && o->slice_axis != 2 ? 2 : 1;
+    snprintf(s->across, sizeof s->across, "%c (%s)", (int)('x' + across), metre);
+    snprintf(s->up, sizeof s->up, "%c (%s)", (int)('x' + up), metre);
+    if (d->dim == 1)
+        *s->up = '\0';
+    if (d->dim == 3 && !o->has_slice) {
+        snprintf(s->across, sizeof s->across, "across (%s)", metre);
+        snprintf(s->up, sizeof s->up, "up (%s)", metre);
     }
+}
+
+static bool all_finite(const options *o, const dump_file *d, const double *value)
+{
+    for (uint32_t i = 0; i < d->n; i++)
+        if (!(fabs(value[i]) <= FARTHEST)) {
+            host_no("%s: %s of particle %u is %g, allowed: -%g .. %g", d->name, o->field, dump_id(d, i), value[i], FARTHEST,
+                    FARTHEST);
+            return false;
+        }
+    return true;
 }
 
 static bool make_scene(scene *s, const options *o, const dump_file *d)
 {
     double *value = host_alloc(d->n * sizeof *value), x[3] = {0, 0, 0};
     memset(s, 0, sizeof *s);
-    if (!dump_field(d, o->field, value, &s->unit)) {
+    if (!dump_field(d, o->field, value, &s->unit) || !all_finite(o, d, value)) {
         free(value);
         return false;
     }
@@ -208,6 +226,20 @@ static void tick_text(char *text, size_t size, double v, double step)
     snprintf(text, size, "%.5g", fabs(v) < 1e-9 * step ? 0.0 : v);
 }
 
+/* ticks of a range at multiples of a step: number k of count is at (first + k) step */
+typedef struct ticks {
+    double step, first;
+    int count;
+} ticks;
+static ticks make_ticks(double low, double high, int n)
+{
+    ticks t = {tick_step(high - low, n), 0, 0};
+    t.first = ceil(low / t.step - 1e-9);
+    const double count = floor(high / t.step + 1e-9) - t.first + 1;
+    t.count = count > 0 ? count < 2 * n + 2 ? (int)count : 2 * n + 2 : 0;
+    return t;
+}
+
 static void draw_axes(image *m, const frame *f, const scene *s)
 {
     char text[32];
@@ -216,17 +248,19 @@ static void draw_axes(image *m, const frame *f, const scene *s)
     image_rect(m, f->left - 1, bottom, f->width + 2, 1, grey);
     image_rect(m, f->left - 1, f->top - 1, 1, f->height + 2, grey);
     image_rect(m, f->left + f->width, f->top - 1, 1, f->height + 2, grey);
-    double step = tick_step(s->x1 - s->x0, f->width / (44 * g) + 1);
-    for (double v = ceil(s->x0 / step) * step; v <= s->x1 * (1 + 1e-12) + 1e-12 * step; v += step) {
+    ticks t = make_ticks(s->x0, s->x1, f->width / (44 * g) + 1);
+    for (int k = 0; k < t.count; k++) {
+        const double v = (t.first + k) * t.step;
         const int x = f->left + (int)lround((v - s->x0) * f->sx);
-        tick_text(text, sizeof text, v, step);
+        tick_text(text, sizeof text, v, t.step);
         image_rect(m, x, bottom, 1, 3 * g, black);
         image_text(m, x - image_text_width(text, g) / 2, bottom + 5 * g, g, text, black);
     }
-    step = tick_step(s->y1 - s->y0, f->height / (24 * g) + 1);
-    for (double v = ceil(s->y0 / step) * step; v <= s->y1 + 1e-9 * step; v += step) {
+    t = make_ticks(s->y0, s->y1, f->height / (24 * g) + 1);
+    for (int k = 0; k < t.count; k++) {
+        const double v = (t.first + k) * t.step;
         const int y = bottom - (int)lround((v - s->y0) * f->sy);
-        tick_text(text, sizeof text, v, step);
+        tick_text(text, sizeof text, v, t.step);
         image_rect(m, f->left - 1 - 3 * g, y, 3 * g, 1, black);
         image_text(m, f->left - 5 * g - image_text_width(text, g), y - 4 * g, g, text, black);
     }
@@ -248,10 +282,11 @@ static void draw_bar(image *m, const frame *f, const options *o, const char *uni
     for (int k = 0; k < height; k++)
         image_rect(m, x, top + height - 1 - k, width, 1,
                    colour_of(o, low + (high - low) * (k + 0.5) / height, low, high));
-    double step = tick_step(high - low, 6);
-    for (double v = ceil(low / step - 1e-9) * step; v <= high + 1e-9 * step; v += step) {
+    const ticks t = make_ticks(low, high, 6);
+    for (int k = 0; k < t.count; k++) {
+        const double v = (t.first + k) * t.step;
         const int y = top + height - (int)lround((v - low) / (high - low) * height);
-        tick_text(text, sizeof text, v, step);
+        tick_text(text, sizeof text, v, t.step);
         image_rect(m, x + width, y, 3 * g, 1, black);
         image_text(m, x + width + 5 * g, y - 4 * g, g, text, black);
     }
@@ -270,7 +305,7 @@ static void draw_dot(image *m, const frame *f, const scene *s, const dot *t, dou
     if (!(x >= f->left && x <= f->left + f->width && y >= f->top && y <= f->top + f->height))
         return;
     if (size < 4) {
-        const int n = size < 1 ? 1 : (int)ceil(size);
+        const int n = size > 1 ? (int)ceil(size) : 1;
         image_rect(m, (int)floor(x - 0.5 * size), (int)floor(y - 0.5 * size), n, n, c);
     } else
         image_disc(m, x, y, 0.5 * size, c);
@@ -296,23 +331,33 @@ static void draw_dots(image *m, const frame *f, const scene *s, const dump_file 
     }
 }
 
-static bool draw(scene *s, const dump_file *d, const options *o, double low, double high, const char *out)
+/* is a range one that numbers can tell apart? else a message */
+static bool check_range(const char *what, const dump_file *d, double low, double high)
+{
+    const double most = fmax(fabs(low), fabs(high));
+    if (most <= FARTHEST && high - low >= NARROWEST * most && high > low)
+        return true;
+    host_no("%s: %s is %.17g .. %.17g, allowed: within -%g .. %g, and %g of its largest number wide", d->name, what, low,
+            high, FARTHEST, FARTHEST, NARROWEST);
+    return false;
+}
+
+static bool draw(scene *s, const dump_file *d, const options *o, double low, double high, output *out)
 {
     char title[128];
-    host_file h;
     choose_view(s, o, d, low, high);
+    if (!check_range("the view across", d, s->x0, s->x1) || !check_range("the view up", d, s->y0, s->y1))
+        return false;
     image m = image_new(o->width, o->height, white);
     const frame f = make_frame(s, o, d->dim > 1);
     draw_dots(&m, &f, s, d, o, low, high);
     draw_axes(&m, &f, s);
     draw_bar(&m, &f, o, s->unit, low, high);
-    snprintf(title, sizeof title, "t = %.5g s, step %llu", d->time, (unsigned long long)d->step);
+    snprintf(title, sizeof title, "t = %.5g %s, step %llu", d->time, dump_unit(d, "s"), (unsigned long long)d->step);
     image_text(&m, f.left, 5 * f.scale, f.scale, title, black);
-    bool fine = host_create(&h, out);
-    if (fine) {
-        const bool written = image_write_png(&m, h.f);
-        fine = host_finish(&h, written) && written;
-    }
+    const bool fine = image_write_png(&m, out->f);
+    if (!fine)
+        host_no("%s: the picture could not be packed", out->name);
     image_free(&m);
     return fine;
 }
@@ -349,38 +394,48 @@ static bool find_range(char **dumps, int n, options *o, double *low, double *hig
     }
     *low = o->has_min ? o->min : *low;
     *high = o->has_max ? o->max : *high;
-    if (!(*high > *low)) { /* one value only: a bar around it */
+    if (!(*high - *low > NARROWEST * fmax(fabs(*low), fabs(*high)))) { /* one value only: a bar around it */
         const double by = *low != 0 ? 0.01 * fabs(*low) : 1;
         *low = o->has_min ? *low : *low - by;
-        *high = (o->has_min ? *low : *high) + by;
+        *high = o->has_max ? *high : (o->has_min ? *low : *high) + by;
     }
     return true;
 }
 
+static bool render_one(const char *dump, const options *o, double low, double high, output *out)
+{
+    dump_file d;
+    scene s;
+    bool fine = false;
+    if (!dump_open(&d, dump))
+        return false;
+    if (o->has_slice && d.dim != 3)
+        host_usage("slice: %s is %u-D, a slice is of a 3-D dump", dump, d.dim);
+    else if (check_range(o->field, &d, low, high) && make_scene(&s, o, &d)) {
+        fine = draw(&s, &d, o, low, high, out);
+        free(s.dot);
+    }
+    dump_close(&d);
+    return fine;
+}
+
+/* all pictures, or none */
 static int render(char **dumps, int n, options *o)
 {
     double low, high;
-    char *name = host_alloc(strlen(o->out) + 32);
+    const size_t room = strlen(o->out) + 32, count = (size_t)n;
+    char *name = host_alloc(count * room);
+    output *out = host_alloc(count * sizeof *out);
+    memset(out, 0, count * sizeof *out);
     bool fine = find_range(dumps, n, o, &low, &high);
     for (int k = 0; fine && k < n; k++) {
-        dump_file d;
-        scene s;
-        if (n > 1)
-            snprintf(name, strlen(o->out) + 32, "%.*s_%04d.png", (int)(strlen(o->out) - 4), o->out, k);
-        if (!dump_open(&d, dumps[k])) {
-            fine = false;
-            break;
-        }
-        if (o->has_slice && d.dim != 3) {
-            host_usage("slice: %s is %u-D, a slice is of a 3-D dump", dumps[k], d.dim);
-            fine = false;
-        } else if ((fine = make_scene(&s, o, &d))) {
-            fine = draw(&s, &d, o, low, high, n > 1 ? name : o->out);
-            free(s.dot);
-        }
-        dump_close(&d);
+        char *own = name + (size_t)k * room;
+        snprintf(own, room, n > 1 ? "%.*s_%04d.png" : "%.*s.png", (int)(strlen(o->out) - 4), o->out, k);
+        fine = output_open(&out[k], "out", own) && render_one(dumps[k], o, low, high, &out[k]) && output_ready(&out[k]);
     }
+    fine = output_close_all(out, count, fine) && fine;
     free(name);
+    free(out);
     return fine ? HOST_FINE : HOST_NO;
 }
 
@@ -432,13 +487,17 @@ static bool parse_options(int argc, char **argv, options *o)
         return false;
     o->out = host_option(argc, argv, "out");
     o->has_min = (t = host_option(argc, argv, "min")) != NULL;
-    if (t && !host_number("min", t, -1e300, 1e300, &o->min))
+    if (t && !host_number("min", t, -FARTHEST, FARTHEST, &o->min))
         return false;
     o->has_max = (t = host_option(argc, argv, "max")) != NULL;
-    if (t && !host_number("max", t, -1e300, 1e300, &o->max))
+    if (t && !host_number("max", t, -FARTHEST, FARTHEST, &o->max))
         return false;
     if (o->has_min && o->has_max && !(o->max > o->min)) {
         host_usage("max=%g: must be above min=%g", o->max, o->min);
+        return false;
+    }
+    if (o->has_min && o->has_max && !(o->max - o->min >= NARROWEST * fmax(fabs(o->max), fabs(o->min)))) {
+        host_usage("max=%.17g: must be above min=%.17g by %g of either", o->max, o->min, NARROWEST);
         return false;
     }
     o->has_view = (t = host_option(argc, argv, "view")) != NULL;
@@ -447,6 +506,14 @@ static bool parse_options(int argc, char **argv, options *o)
     if (t && !(o->view[1] > o->view[0] && o->view[3] > o->view[2])) {
         host_usage("view=%s: the second number must be above the first, the fourth above the third", t);
         return false;
+    }
+    for (int k = 0; t && k < 4; k += 2) {
+        const double low = o->view[k], high = o->view[k + 1], most = fmax(fabs(low), fabs(high));
+        if (!(most <= FARTHEST && high - low >= NARROWEST * most)) {
+            host_usage("view=%s: %.17g .. %.17g must be within -%g .. %g, and %g of its largest number wide", t, low, high,
+                       FARTHEST, FARTHEST, NARROWEST);
+            return false;
+        }
     }
     return (!(t = host_option(argc, argv, "size")) || parse_size(t, o)) &&
            (!(t = host_option(argc, argv, "slice")) || parse_slice(t, o)) &&

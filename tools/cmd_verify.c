@@ -14,9 +14,10 @@ static bool verify_one(const dump_file *d, const char *name)
 {
     if (!dump_check(d))
         return false;
-    printf("%s: fine, %s dump, %u-D %s, %u particles, step %llu, t = %.9g s\n", name, d->full ? "full" : "reduced",
+    printf("%s: fine, %s dump, %u-D %s, %u particles, step %llu, t = %.9g %s\n", name, d->full ? "full" : "reduced",
            d->dim,
-           d->real_bytes == 8 ? "double" : "float", d->n, (unsigned long long)d->step, d->time);
+           d->real_bytes == 8 ? "double" : "float", d->n, (unsigned long long)d->step, d->time,
+           dump_unit(d, "s"));
     return true;
 }
 

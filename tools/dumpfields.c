@@ -111,6 +111,18 @@ bool dump_field_signed(const dump_file *d, const char *field)
     return kinds[parse_field(d, field, &axis)].is_signed;
 }
 
+double dump_field_mirrored(const dump_file *d, const char *field, uint32_t axis, bool no_slip)
+{
+    static const uint8_t pairs[][2] = {{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}, {2, 2}}; /* of XX.. */
+    uint32_t own = 0;
+    switch (parse_field(d, field, &own)) {
+    case F_VELOCITY: return no_slip || own == axis ? -1 : 1;
+    case F_ACCELERATION: return own == axis ? -1 : 1;
+    case F_STRESS: return (pairs[own][0] == axis) != (pairs[own][1] == axis) ? -1 : 1;
+    default: return 1;
+    }
+}
+
 /* ---- values ---- */
 
 /* by the set's equation of state, numbered as in sph.h: 2 linear, 3 isothermal, else Tait's; solids bear tension */
@@ -208,7 +220,7 @@ bool dump_field(const dump_file *d, const char *field, double *out, const char *
     }
     set_constants sets[256] = {{0}};
     get_sets(d, sets);
-    *unit = kinds[kind].unit;
+    *unit = dump_unit(d, kinds[kind].unit);
     for (uint32_t i = 0; i < d->n; i++) {
         uint32_t set = dump_set(d, i);
         out[i] = one_value(d, kind, &a, set == DUMP_DEAD ? NULL : &sets[set], i, axis);

@@ -12,7 +12,10 @@
 #define PREAMBLE 32u
 #define HEADER 64u
 #define FIELD 32u
-#define PERIODIC 1u /* of scene.face: SPH_PERIODIC */
+#define PERIODIC 1u /* of scene.face: SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP */
+#define SYMMETRY 2u
+#define MIRROR_NO_SLIP 3u
+#define FARTHEST 1e30 /* m, s: what the kernel takes (sph/options.h) */
 
 static uint64_t number(const unsigned char *p, uint32_t bytes)
 {
@@ -87,8 +90,6 @@ static bool read_preamble(dump_file *d)
         return refuse(d, "the dump is corrupt", "impossible preamble");
     if (number(p + 16, 8) > d->size)
         return refuse(d, "the dump ends too early", "it is shorter than its preamble says");
-    if (number(p + 16, 8) < d->size)
-        return refuse(d, "the dump is corrupt", "bytes behind its end");
     if (d->sections < 6 || d->sections > d->size / HEADER)
         return refuse(d, "the dump is corrupt", "number of sections");
     return true;
@@ -118,10 +119,37 @@ static bool read_section(dump_file *d, uint32_t k, size_t *at, uint32_t *sum)
         return refuse(d, "the dump is corrupt: size of a section", s->name);
     if (crc32(0, s->data, s->bytes) != number(s->data + s->bytes, 4))
         return refuse(d, "the dump is corrupt: checksum of a section", s->name);
+    for (uint32_t i = 0; i < k; i++)
+        if (!strcmp(d->section[i].name, s->name))
+            return refuse(d, "the dump is corrupt: a section is there twice", s->name);
     if (!strcmp(s->name, "end") && (s->bytes != 4 || number(s->data, 4) != *sum))
         return refuse(d, "the dump is corrupt", "checksum of all sections");
     *sum = chain(chain(*sum, h + 60), s->data + s->bytes);
     *at += HEADER + s->bytes + 4;
+    return true;
+}
+
+static void read_units(dump_file *d);
+
+/* what may stand behind the dump: notes, and nothing else */
+static bool read_notes(dump_file *d, size_t at)
+{
+    uint32_t sum = 0;
+    d->notes = "";
+    if (at == d->size)
+        return true;
+    const uint32_t k = d->sections;
+    if (!read_section(d, k, &at, &sum))
+        return false;
+    const dump_section *s = &d->section[k];
+    if (strcmp(s->name, DUMP_NOTES) != 0 || s->type != DUMP_U8 || s->comps != 1 || at != d->size)
+        return refuse(d, "the dump is corrupt", "bytes behind its end that are no notes");
+    for (uint64_t i = 0; i < s->bytes; i++)
+        if (s->data[i] != '\n' && (s->data[i] < ' ' || s->data[i] > '~'))
+            return refuse(d, "the dump is corrupt", "its notes are no text");
+    d->notes = (const char *)s->data;
+    d->notes_bytes = (size_t)s->bytes;
+    read_units(d);
     return true;
 }
 
@@ -156,6 +184,22 @@ static bool needs(const dump_file *d, const char *record, const char *field, uin
 
 enum { SYMMETRIC = 99 };
 
+/* known sets, places in the domain or less than its length outside (put back by a wall, a particle may wait there) */
+static bool check_particles(const dump_file *d)
+{
+    for (uint32_t i = 0; i < d->n; i++) {
+        if (dump_set(d, i) != DUMP_DEAD && dump_set(d, i) >= d->sets)
+            return refuse(d, "the dump is corrupt", "a particle of an unknown set");
+        for (uint32_t k = 0; k < d->dim; k++)
+            if (!(fabs(dump_x(d, i, k) - 0.5 * (d->lo[k] + d->hi[k])) <= 1.5 * (d->hi[k] - d->lo[k]))) {
+                host_no("%s: particle %u is at %g %s, far outside the domain, %g .. %g", d->name, dump_id(d, i),
+                        dump_x(d, i, k), dump_unit(d, "m"), d->lo[k], d->hi[k]);
+                return false;
+            }
+    }
+    return true;
+}
+
 static bool check_arrays(dump_file *d)
 {
     static const struct {
@@ -175,13 +219,34 @@ static bool check_arrays(dump_file *d)
         if (s && (s->type != type || s->comps != comps || s->count != d->n))
             return refuse(d, "the dump is corrupt: shape of", list[k].name);
     }
+    for (uint32_t k = 0; k + 1 < d->sections; k++) /* of arrays that are not known here too; the last is the end */
+        if (d->section[k].type != DUMP_RECORD && d->section[k].count != d->n)
+            return refuse(d, "the dump is corrupt: not a value for each particle in", d->section[k].name);
     d->pos = dump_find(d, "pos");
     d->id = dump_find(d, "id");
     d->set = dump_find(d, "set");
-    for (uint32_t i = 0; i < d->n; i++)
-        if (dump_set(d, i) != DUMP_DEAD && dump_set(d, i) >= d->sets)
-            return refuse(d, "the dump is corrupt", "a particle of an unknown set");
-    return true;
+    return check_particles(d);
+}
+
+static bool within(const dump_file *d, const char *name, double v, double least, double most)
+{
+    if (v >= least && v <= most)
+        return true;
+    host_no("%s: the dump is corrupt: %s is %g, allowed: %g .. %g", d->name, name, v, least, most);
+    return false;
+}
+
+/* numbers that others compute with */
+static bool check_scalars(const dump_file *d)
+{
+    for (uint32_t k = 0; k < d->dim; k++)
+        if (!within(d, "lo", d->lo[k], -FARTHEST, FARTHEST) || !within(d, "hi", d->hi[k], d->lo[k], FARTHEST))
+            return false;
+    for (uint32_t s = 0; s < d->sets; s++)
+        if (!within(d, "role of a set", dump_number(d, "sets", "role", s, 0), 0, DUMP_GONE - 1))
+            return false;
+    return within(d, "quantum", d->quantum, 1e-300, FARTHEST) && within(d, "spacing", d->spacing, 1e-30, FARTHEST) &&
+           within(d, "time", d->time, 0, FARTHEST);
 }
 
 static bool read_scalars(dump_file *d)
@@ -201,7 +266,11 @@ static bool read_scalars(dump_file *d)
     d->quantum = dump_number(d, "scene", "quantum", 0, 0);
     d->spacing = dump_number(d, "scene", "spacing", 0, 0);
     d->time = dump_number(d, "state", "time", 0, 0);
-    d->step = (uint64_t)dump_number(d, "state", "step", 0, 0);
+    dump_member m;
+    dump_find_member(dump_find(d, "state"), "step", &m);
+    const double steps = dump_number(d, "state", "step", 0, 0);
+    d->step = m.type != DUMP_F64 ? dump_member_bits(dump_find(d, "state"), &m, 0, 0)
+              : steps >= 0 && steps < 1e15 ? (uint64_t)steps : 0;
     double n = dump_number(d, "state", "particles", 0, 0);
     if (!(n >= 0 && n < 4294967295.0))
         return refuse(d, "the dump is corrupt", "number of particles");
@@ -211,7 +280,7 @@ static bool read_scalars(dump_file *d)
         return refuse(d, "the dump is corrupt", "number of sets");
     d->eos = small(dump_number(d, "scene", "eos", 0, 0));
     d->pressure_floor = dump_number(d, "scene", "pressure_floor", 0, 0) != 0;
-    return check_arrays(d);
+    return check_scalars(d) && check_arrays(d);
 }
 
 static bool read_all(dump_file *d)
@@ -220,30 +289,37 @@ static bool read_all(dump_file *d)
         return false;
     size_t at = PREAMBLE;
     uint32_t sum = chain(0, d->bytes + 28);
-    d->section = host_alloc(d->sections * sizeof *d->section);
-    memset(d->section, 0, d->sections * sizeof *d->section);
+    d->section = host_alloc((d->sections + (size_t)1) * sizeof *d->section); /* and the notes */
+    memset(d->section, 0, (d->sections + (size_t)1) * sizeof *d->section);
     for (uint32_t k = 0; k < d->sections; k++) {
         if (!read_section(d, k, &at, &sum))
             return false;
         if (d->section[k].type == DUMP_RECORD && !check_record(d, &d->section[k]))
             return false;
     }
-    if (strcmp(d->section[d->sections - 1].name, "end") != 0 || at != d->size)
+    if (strcmp(d->section[d->sections - 1].name, "end") != 0 || at != number(d->bytes + 16, 8))
         return refuse(d, "the dump is corrupt", "its last section is not its end");
-    return read_scalars(d);
+    return read_notes(d, at) && read_scalars(d);
 }
 
-bool dump_open(dump_file *d, const char *name)
+bool dump_take(dump_file *d, const char *name, unsigned char *bytes, size_t size)
 {
     memset(d, 0, sizeof *d);
     d->name = name;
-    d->bytes = host_read(name, &d->size);
-    if (!d->bytes)
-        return false;
+    d->bytes = bytes;
+    d->size = size;
     if (read_all(d))
         return true;
     dump_close(d);
     return false;
+}
+
+bool dump_open(dump_file *d, const char *name)
+{
+    size_t size;
+    unsigned char *bytes = host_read(name, &size);
+    memset(d, 0, sizeof *d);
+    return bytes && dump_take(d, name, bytes, size);
 }
 
 void dump_close(dump_file *d)
@@ -340,11 +416,113 @@ uint32_t dump_role(const dump_file *d, uint32_t i)
     return set == DUMP_DEAD ? DUMP_GONE : small(dump_number(d, "sets", "role", set, 0));
 }
 bool dump_is_wall(uint32_t role) { return role == DUMP_GHOST || role == DUMP_FORCE_WALL; }
-bool dump_periodic(const dump_file *d, uint32_t axis) { return dump_number(d, "scene", "face", 0,
-    2 * axis) == PERIODIC; }
+bool dump_periodic(const dump_file *d, uint32_t axis)
+{
+    return dump_number(d, "scene", "face", 0, 2 * axis) == PERIODIC;
+}
+bool dump_mirror(const dump_file *d, uint32_t axis, uint32_t side, bool *no_slip)
+{
+    const double face = dump_number(d, "scene", "face", 0, 2 * axis + side);
+    *no_slip = face == MIRROR_NO_SLIP;
+    return *no_slip || face == SYMMETRY;
+}
 double dump_x(const dump_file *d, uint32_t i, uint32_t axis)
 {
     return d->lo[axis] + d->quantum * dump_value(d->pos, axis, i);
+}
+
+/* ---- ids ---- */
+
+static int by_id(const void *a, const void *b)
+{
+    const dump_id_at *x = a, *y = b;
+    return x->id != y->id ? (x->id > y->id) - (x->id < y->id) : (x->at > y->at) - (x->at < y->at);
+}
+
+dump_id_at *dump_sort_ids(const dump_file *d)
+{
+    dump_id_at *p = host_alloc(d->n * sizeof *p);
+    for (uint32_t i = 0; i < d->n; i++)
+        p[i] = (dump_id_at){dump_id(d, i), i};
+    if (d->n)
+        qsort(p, d->n, sizeof *p, by_id);
+    return p;
+}
+
+uint32_t dump_place(const dump_id_at *sorted, uint32_t n, uint32_t id)
+{
+    uint32_t low = 0, high = n;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (sorted[middle].id < id)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < n && sorted[low].id == id ? sorted[low].at : UINT32_MAX;
+}
+
+/* ---- notes ---- */
+
+bool dump_note(const dump_file *d, const char *key, char *out, size_t size)
+{
+    const size_t n = strlen(key);
+    const char *end = d->notes + d->notes_bytes;
+    *out = '\0';
+    for (const char *line = d->notes, *next; line < end; line = next) {
+        const char *stop = memchr(line, '\n', (size_t)(end - line));
+        const size_t length = (size_t)((stop ? stop : end) - line);
+        next = stop ? stop + 1 : end;
+        if (length <= n || line[n] != '=' || memcmp(line, key, n) != 0)
+            continue;
+        snprintf(out, size, "%.*s", (int)(length - n - 1 < size ? length - n - 1 : size - 1), line + n + 1);
+        return true;
+    }
+    return false;
+}
+
+const char *dump_unit(const dump_file *d, const char *unit)
+{
+    for (int k = 0; k < DUMP_UNITS && *d->unit[k].si; k++)
+        if (!strcmp(d->unit[k].si, unit))
+            return d->unit[k].own;
+    return unit;
+}
+
+static void read_units(dump_file *d)
+{
+    static const char *const si[] = {"m", "s", "kg", "m/s", "m/s^2", "m^2/s", "kg/m^3", "Pa", "J", "W", "1/s"};
+    char key[32], own[sizeof d->unit[0].own];
+    int n = 0;
+    for (size_t k = 0; k < sizeof si / sizeof *si; k++) {
+        snprintf(key, sizeof key, "unit %s", si[k]);
+        if (!dump_note(d, key, own, sizeof own) || !*own)
+            continue;
+        snprintf(d->unit[n].si, sizeof d->unit[n].si, "%s", si[k]);
+        memcpy(d->unit[n++].own, own, sizeof own);
+    }
+}
+
+static void store(unsigned char *p, uint64_t v, uint32_t bytes)
+{
+    for (uint32_t i = 0; i < bytes; i++)
+        p[i] = (unsigned char)(v >> 8 * i);
+}
+
+bool dump_put_notes(const char *text, size_t n, uint32_t index, bool (*sink)(void *ctx, const void *bytes, size_t n),
+                    void *ctx)
+{
+    unsigned char h[HEADER] = {0}, crc[4];
+    memcpy(h, DUMP_NOTES, sizeof DUMP_NOTES - 1);
+    memcpy(h + 16, "text", 4);
+    store(h + 32, DUMP_U8, 4);
+    store(h + 36, 1, 4);
+    store(h + 40, n, 8);
+    store(h + 48, n, 8);
+    store(h + 56, index, 4);
+    store(h + 60, crc32(0, h, 60), 4);
+    store(crc, crc32(0, (const unsigned char *)text, n), 4);
+    return sink(ctx, h, HEADER) && sink(ctx, text, n) && sink(ctx, crc, 4);
 }
 
 /* ---- checks of values ---- */
@@ -353,24 +531,17 @@ bool dump_check(const dump_file *d)
 {
     double most = dump_number(d, "scene", "max_particles", 0, 0);
     bool fine = true;
-    if (!(most >= d->n && most < 4294967296.0))
-        return refuse(d, "more particles than max_particles", "");
-    unsigned char *seen = host_alloc((size_t)most + 1);
-    memset(seen, 0, (size_t)most + 1);
-    for (uint32_t i = 0; fine && i < d->n; i++) {
-        uint32_t id = dump_id(d, i);
-        if (id >= most || seen[id]) {
-            host_no("%s: id %u is there twice or too large", d->name, id);
-            fine = false;
-        } else
-            seen[id] = 1;
-        for (uint32_t k = 0; fine && k < d->dim; k++)
-            if (!(fabs(dump_x(d, i, k) - 0.5 * (d->lo[k] + d->hi[k])) <= 1.5 * (d->hi[k] - d->lo[k]))) {
-                host_no("%s: particle %u is at %g m, far outside the domain", d->name, id, dump_x(d, i, k));
-                fine = false;
-            }
+    if (!(most >= d->n && most < 4294967296.0)) {
+        host_no("%s: %u particles, more than max_particles, %g", d->name, d->n, most);
+        return false;
     }
-    free(seen);
+    dump_id_at *id = dump_sort_ids(d);
+    for (uint32_t i = 0; fine && i < d->n; i++)
+        if (id[i].id >= most || (i && id[i].id == id[i - 1].id)) {
+            host_no("%s: id %u is there twice or too large, allowed: each once, below %.0f", d->name, id[i].id, most);
+            fine = false;
+        }
+    free(id);
     for (uint32_t k = 0; fine && k < d->sections; k++) {
         const dump_section *s = &d->section[k];
         for (uint64_t i = 0; fine && (s->type == DUMP_F32 || s->type == DUMP_F64) && i < s->count * s->comps; i++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* host.c: messages, arguments and files of the sub-commands (see host.h). */
+/* host.c: messages, arguments and files that are read (see host.h). */
 #include "host.h"
 
 #include <errno.h>
@@ -37,6 +37,15 @@ int host_usage(const char *format, ...)
     va_end(args);
     fprintf(stderr, "try: sph %s%s--help\n", command, *command ? " " : "");
     return HOST_USAGE;
+}
+
+int host_end(int code)
+{
+    errno = 0;
+    if (!fflush(stdout) && !ferror(stdout))
+        return code;
+    /* a buffer that failed before keeps its error, not the reason */
+    return host_no("cannot write standard output: %s", errno ? strerror(errno) : "an earlier piece of it failed");
 }
 
 bool host_help(int argc, char **argv, const char *text)
@@ -125,6 +134,19 @@ static void list_names(const char *const *names)
     fputc('\n', stderr);
 }
 
+/* does an argument before number i say the same name? then a message: which of the two was meant is not to be guessed */
+bool host_given_before(char **argv, int i, const char *name)
+{
+    char own[64];
+    const char *value;
+    for (int k = 1; k < i; k++)
+        if (host_split(argv[k], own, sizeof own, &value) && !strcmp(own, name)) {
+            host_usage("%s is given twice: %s and %s", name, argv[k], argv[i]);
+            return true;
+        }
+    return false;
+}
+
 int host_known_options(int argc, char **argv, const char *const *known)
 {
     int files = 0;
@@ -135,10 +157,12 @@ int host_known_options(int argc, char **argv, const char *const *known)
             const char *const *k = known;
             while (*k && strcmp(*k, name))
                 k++;
-            if (*k)
+            if (*k && !host_given_before(argv, i, name))
                 continue;
-            host_usage("unknown option %s", name);
-            list_names(known);
+            if (!*k) {
+                host_usage("unknown option %s", name);
+                list_names(known);
+            }
             return -1;
         }
         if (argv[i][0] == '-' && argv[i][1]) {
@@ -187,46 +211,6 @@ void *host_realloc(void *p, size_t bytes)
         exit(HOST_NO);
     }
     return q;
-}
-
-static char *join(const char *a, const char *b)
-{
-    size_t n = strlen(a) + strlen(b) + 1;
-    char *s = host_alloc(n);
-    snprintf(s, n, "%s%s", a, b);
-    return s;
-}
-
-bool host_create(host_file *h, const char *name)
-{
-    h->name = join(name, "");
-    h->tmp = join(name, ".tmp");
-    h->f = fopen(h->tmp, "wb");
-    if (h->f)
-        return true;
-    host_no("cannot write %s: %s", h->tmp, strerror(errno));
-    free(h->name);
-    free(h->tmp);
-    return false;
-}
-
-bool host_finish(host_file *h, bool keep)
-{
-    bool fine = keep;
-    errno = 0;
-    if (fflush(h->f) || ferror(h->f))
-        fine = false;
-    if (fclose(h->f))
-        fine = false;
-    if (fine && rename(h->tmp, h->name))
-        fine = false;
-    if (keep && !fine)
-        host_no("cannot write %s: %s", h->name, strerror(errno));
-    if (!fine)
-        remove(h->tmp);
-    free(h->name);
-    free(h->tmp);
-    return fine || !keep;
 }
 
 unsigned char *host_read(const char *name, size_t *size)

@@ -36,36 +36,42 @@ static void put(image *m, int x, int y, colour c)
 
 void image_rect(image *m, int x, int y, int width, int height, colour c)
 {
-    int x0 = x < 0 ? 0 : x, y0 = y < 0 ? 0 : y;
-    int x1 = x + width > m->width ? m->width : x + width, y1 = y + height > m->height ? m->height : y + height;
+    const long long right = (long long)x + width, low = (long long)y + height;
+    const int x0 = x < 0 ? 0 : x, y0 = y < 0 ? 0 : y;
+    const int x1 = right > m->width ? m->width : (int)right, y1 = low > m->height ? m->height : (int)low;
     for (int j = y0; j < y1; j++)
         for (int i = x0; i < x1; i++)
             put(m, i, j, c);
 }
 
+/* a whole number from low to high out of any double */
+static int bounded(double v, int low, int high) { return v > low ? v < high ? (int)v : high : low; }
+
+/* what is off the picture costs nothing: a disc may be far larger */
 void image_disc(image *m, double x, double y, double radius, colour c)
 {
-    if (!(fabs(x) < 1e6 && fabs(y) < 1e6 && radius < 1e5))
-        return;
-    int y0 = (int)ceil(y - radius), y1 = (int)floor(y + radius);
+    const int y0 = bounded(ceil(y - radius), 0, m->height), y1 = bounded(floor(y + radius), -1, m->height - 1);
     bool drawn = false;
+    if (!(radius >= 0))
+        return;
     for (int j = y0; j <= y1; j++) {
-        double half = sqrt(fmax(0, radius * radius - (j - y) * (j - y)));
-        for (int i = (int)ceil(x - half); i <= (int)floor(x + half); i++) {
+        const double half = sqrt(fmax(0, radius * radius - (j - y) * (j - y)));
+        const int x0 = bounded(ceil(x - half), 0, m->width), x1 = bounded(floor(x + half), -1, m->width - 1);
+        for (int i = x0; i <= x1; i++) {
             put(m, i, j, c);
             drawn = true;
         }
     }
-    if (!drawn)
+    if (!drawn && radius < 1 && fabs(x) < 1e6 && fabs(y) < 1e6)
         put(m, (int)lround(x), (int)lround(y), c);
 }
 
 void image_line(image *m, double x0, double y0, double x1, double y1, colour c)
 {
-    double n = fmax(fabs(x1 - x0), fabs(y1 - y0));
-    if (!(n < 1e6))
+    const double n = fmax(fabs(x1 - x0), fabs(y1 - y0));
+    if (!(fabs(x0) < 1e6 && fabs(y0) < 1e6 && fabs(x1) < 1e6 && fabs(y1) < 1e6))
         return;
-    int steps = (int)ceil(n);
+    const int steps = (int)ceil(n);
     for (int k = 0; k <= steps; k++) {
         double s = steps ? (double)k / steps : 0;
         put(m, (int)lround(x0 + s * (x1 - x0)), (int)lround(y0 + s * (y1 - y0)), c);

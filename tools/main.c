@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* main.c: the program `sph`: hands its arguments to a sub-command. */
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -63,6 +64,7 @@ static int unknown(const char *name)
 
 int main(int argc, char **argv)
 {
+    signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is a failed write, whose reason is said */
     if (argc < 2) {
         help();
         return HOST_USAGE;
@@ -70,21 +72,18 @@ int main(int argc, char **argv)
     const char *name = argv[1];
     if (!strcmp(name, "--version")) {
         printf("sph %u\n", SPH_VERSION);
-        return HOST_FINE;
+        return host_end(HOST_FINE);
     }
     bool asks = !strcmp(name, "help") || !strcmp(name, "--help") || !strcmp(name, "-h");
     if (asks && argc == 2)
-        return help();
+        return host_end(help());
     const struct command *c = find(asks ? argv[2] : name);
     if (!c)
         return unknown(asks ? argv[2] : name);
     host_command(c->name);
     if (asks) {
         char text[] = "--help", *arguments[] = {argv[2], text, NULL};
-        return c->run(2, arguments);
+        return host_end(c->run(2, arguments));
     }
-    int code = c->run(argc - 1, argv + 1);
-    if (fflush(stdout) || ferror(stdout))
-        return host_no("standard output could not be written");
-    return code;
+    return host_end(c->run(argc - 1, argv + 1));
 }

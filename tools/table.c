@@ -3,8 +3,11 @@
 #define _POSIX_C_SOURCE 200809L
 #include "table.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "host.h"
 
@@ -119,7 +122,10 @@ bool table_open(table *t, const char *file)
     t->text = host_read(file, &size);
     if (!t->text)
         return false;
-    if (read_lines(t, (char *)t->text))
+    /* what stands behind a zero byte would be lost without a word */
+    if (strlen((char *)t->text) != size)
+        host_no("%s: byte %zu is zero: it is no text, or not whole", file, strlen((char *)t->text) + 1);
+    else if (read_lines(t, (char *)t->text))
         return true;
     table_close(t);
     return false;
@@ -136,45 +142,101 @@ bool plot_name(const char *option, const char *out)
     return false;
 }
 
+/* bytes above 127 are parts of letters in UTF-8 */
+static bool plain(char c)
+{
+    const unsigned char u = (unsigned char)c;
+    return u > 127 || (u >= ' ' && strchr(" ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_=.,:;+-*/()[]%^<>|~#",
+                                          c));
+}
+
 void plot_quote(FILE *g, const char *text)
 {
     fputc('\'', g);
     for (; *text; text++)
-        fprintf(g, *text == '\'' ? "''" : "%c", *text);
+        fputc(plain(*text) ? *text : '?', g);
     fputc('\'', g);
 }
 
-bool plot_open(plot *p, const char *out, int width, int height)
+bool plot_open(plot *p, int width, int height)
 {
-    if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
-        host_no("plot= needs gnuplot, which is not installed (on Debian: the package gnuplot-nox); "
-                "out=NAME.csv writes the columns without it");
-        return false;
-    }
-    size_t room = strlen(out) + 8;
-    p->out = out;
-    p->tmp = host_alloc(room);
-    snprintf(p->tmp, room, "%s.tmp", out);
-    FILE *probe = fopen(p->tmp, "wb"); /* gnuplot would write to stdout instead */
-    p->g = probe && fclose(probe) == 0 ? popen("gnuplot", "w") : NULL;
+    p->script = NULL;
+    p->g = open_memstream(&p->script, &p->size);
     if (!p->g) {
-        host_no(probe ? "gnuplot could not be started" : "cannot write %s", p->tmp);
-        free(p->tmp);
+        host_no("plot=: %s", strerror(errno));
         return false;
     }
-    fprintf(p->g, "set terminal pngcairo noenhanced size %d,%d\nset output ", width, height);
-    plot_quote(p->g, p->tmp);
-    fputc('\n', p->g);
+    fprintf(p->g, "set terminal pngcairo noenhanced size %d,%d\n", width, height);
     return true;
 }
 
-bool plot_close(plot *p)
+enum { NOT_FOUND = 127 };
+
+/* gnuplot with its script as input, its picture into a pipe; the child, -1 and errno if there is none */
+static pid_t start(FILE *script, int out[2])
 {
-    bool fine = pclose(p->g) == 0 && rename(p->tmp, p->out) == 0;
-    if (!fine) {
-        remove(p->tmp);
-        host_no("gnuplot could not make %s", p->out);
+    if (pipe(out))
+        return -1;
+    const pid_t child = fork();
+    if (child == 0) {
+        if (dup2(fileno(script), STDIN_FILENO) < 0 || dup2(out[1], STDOUT_FILENO) < 0)
+            _exit(NOT_FOUND);
+        close(out[0]);
+        close(out[1]);
+        execlp("gnuplot", "gnuplot", (char *)NULL);
+        _exit(NOT_FOUND);
     }
-    free(p->tmp);
+    const int reason = errno;
+    close(out[1]);
+    if (child < 0)
+        close(out[0]);
+    errno = reason;
+    return child;
+}
+
+/* what the child writes, into o, and how it ended; its exit code, -1 if a signal ended it */
+static int take_picture(pid_t child, int from, output *o, size_t *bytes)
+{
+    char piece[4096];
+    ssize_t n;
+    int status = 0;
+    while ((n = read(from, piece, sizeof piece)) > 0 || (n < 0 && errno == EINTR))
+        if (n > 0)
+            *bytes += fwrite(piece, 1, (size_t)n, o->f);
+    close(from);
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static bool draw(const plot *p, output *o)
+{
+    FILE *script = tmpfile();
+    int out[2];
+    size_t bytes = 0;
+    bool fine = script && fwrite(p->script, 1, p->size, script) == p->size && !fflush(script) && !fseek(script, 0, SEEK_SET);
+    fflush(NULL); /* the child must not write what waits in this program's buffers */
+    const pid_t child = fine ? start(script, out) : -1;
+    const int reason = errno, code = child < 0 ? -1 : take_picture(child, out[0], o, &bytes);
+    if (script)
+        fclose(script);
+    if (child < 0)
+        host_no("%s: gnuplot could not be started: %s", o->name, strerror(reason));
+    else if (code == NOT_FOUND)
+        host_no("plot= needs gnuplot, which is not installed (on Debian: the package gnuplot-nox); "
+                "out=NAME.csv writes the columns without it");
+    else if (code || !bytes)
+        host_no("gnuplot could not make %s (exit code %d, %zu bytes)", o->name, code, bytes);
+    return child >= 0 && !code && bytes;
+}
+
+bool plot_close(plot *p, output *o)
+{
+    const bool whole = !ferror(p->g), closed = !fclose(p->g);
+    const bool fine = whole && closed && draw(p, o);
+    if (!whole || !closed)
+        host_no("plot=: no memory for the script");
+    free(p->script);
+    p->script = NULL;
     return fine;
 }

@@ -116,5 +116,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 extern const scene scene_block;
 const scene scene_block = {"block",
     "a block with flaws, with or without a hole, is drawn until it breaks (Gray 2001 section 7.2)",
-                           param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                           param, PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                           history, scene_gray};
 #endif

@@ -109,5 +109,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_brittle SPH_NAME(scene_brittle)
 extern const scene scene_brittle;
 const scene scene_brittle = {"brittle", "a brittle plate is pulled apart and cracks (Gray 2001, 6.4.2)", param,
-                             PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                             PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                             history, scene_gray};
 #endif

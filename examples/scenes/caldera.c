@@ -117,5 +117,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_caldera SPH_NAME(scene_caldera)
 extern const scene scene_caldera;
 const scene scene_caldera = {"caldera", "faults over a magma chamber in stretched rock (Gray 2001 section 7.4)", param,
-                             PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                             PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                             history, scene_gray_km};
 #endif

@@ -85,5 +85,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 extern const scene scene_chamber;
 const scene scene_chamber = {"chamber",
     "stress at the surface above an elliptical chamber in stretched rock (Gray 2001 section 7.3)",
-                             param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                             param, PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                             history, scene_gray};
 #endif

@@ -118,5 +118,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_dam_break SPH_NAME(scene_dam_break)
 extern const scene scene_dam_break;
 const scene scene_dam_break = {"dam_break", "a column of water collapses in a tank (Martin & Moyce 1952)", param,
-                               PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                               PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                               history, scene_si};
 #endif

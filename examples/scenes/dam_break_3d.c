@@ -92,5 +92,5 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_dam_break_3d SPH_NAME(scene_dam_break_3d)
 extern const scene scene_dam_break_3d;
 const scene scene_dam_break_3d = {"dam_break_3d", "a block of water collapses in a tank, in 3-D", param, PARAMS,
-                                  configure, build, end, sizeof column / sizeof *column, column, history};
+                                  configure, build, end, sizeof column / sizeof *column, column, history, scene_si};
 #endif

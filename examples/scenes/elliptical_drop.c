@@ -117,5 +117,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_elliptical_drop SPH_NAME(scene_elliptical_drop)
 extern const scene scene_elliptical_drop;
 const scene scene_elliptical_drop = {"elliptical_drop", "a disc of water drawn into an ellipse (Monaghan 1994)", param,
-                                     PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                                     PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                                     history, scene_si};
 #endif

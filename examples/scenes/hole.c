@@ -81,5 +81,5 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_hole SPH_NAME(scene_hole)
 extern const scene scene_hole;
 const scene scene_hole = {"hole", "stress around a circular hole in a stretched block (Gray 2001 section 6.5)", param,
-                          PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                          PARAMS, configure, build, end, sizeof column / sizeof *column, column, history, scene_gray};
 #endif

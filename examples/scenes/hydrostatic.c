@@ -92,5 +92,5 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_hydrostatic SPH_NAME(scene_hydrostatic)
 extern const scene scene_hydrostatic;
 const scene scene_hydrostatic = {"hydrostatic", "a column of water on a wall in 1-D (Gray 2001, 2.5.1)", param, PARAMS,
-                                 configure, build, end, sizeof column / sizeof *column, column, history};
+                                 configure, build, end, sizeof column / sizeof *column, column, history, scene_si};
 #endif

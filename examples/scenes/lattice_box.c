@@ -228,5 +228,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 extern const scene scene_lattice_box;
 const scene scene_lattice_box = {"lattice_box",
                                  "a periodic box of solid in tension or compression: clumping, plane waves",
-                                 param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                                 param, PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                                 history, scene_gray};
 #endif

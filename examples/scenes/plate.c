@@ -196,5 +196,5 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_plate SPH_NAME(scene_plate)
 extern const scene scene_plate;
 const scene scene_plate = {"plate", "clamped plate that swings, elastic or plastic (Gray 2001 6.2, 6.3)", param,
-                           PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                           PARAMS, configure, build, end, sizeof column / sizeof *column, column, history, scene_gray};
 #endif

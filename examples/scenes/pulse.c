@@ -205,5 +205,5 @@ static void history(const sph_sim *sim, const double *p, double *row)
 extern const scene scene_pulse;
 const scene scene_pulse = {"pulse", "a longitudinal elastic wave on a periodic sheet", param, PARAMS, configure, build,
                            end,
-                           sizeof column / sizeof *column, column, history};
+                           sizeof column / sizeof *column, column, history, scene_gray};
 #endif

@@ -96,5 +96,5 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_rings SPH_NAME(scene_rings)
 extern const scene scene_rings;
 const scene scene_rings = {"rings", "two elastic rings collide and rebound (Gray 2001, 6.1)", param,
-                           PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                           PARAMS, configure, build, end, sizeof column / sizeof *column, column, history, scene_gray};
 #endif

@@ -20,9 +20,21 @@ typedef struct scene {
     sph_status (*build)(sph_sim *sim, const double *p);    /* sets, particles, walls, fields */
     double (*end)(const double *p);                        /* s */
     uint32_t columns;                                      /* history */
-    const char *const *column;                             /* names with units */
+    /* names with units. Those named dissipated, diffused, wall_work, work, energy or error_of_energy, with _J.. or _K..
+       behind or nothing, are out of the books: without books=yes they are not to be shown. */
+    const char *const *column;
     void (*history)(const sph_sim *sim, const double *p, double *row);
+    const scene_unit *units;
 } scene;
+
+/* m, s, kg; in 2-D and 1-D masses, energies and powers are those of a metre of depth, or of a square metre across */
+#define scene_si SPH_NAME(scene_si)
+extern const scene_unit scene_si[];
+/* Gray's (2001, section 5.4; solid.h): lengths in cm (caldera: km), speeds in c0, stresses in K = rho0 c0^2. 2-D */
+#define scene_gray SPH_NAME(scene_gray)
+extern const scene_unit scene_gray[];
+#define scene_gray_km SPH_NAME(scene_gray_km)
+extern const scene_unit scene_gray_km[];
 
 #define scene_table SPH_NAME(scene_table)
 extern const scene *const scene_table[]; /* the scenes of this dimension; null-terminated */

@@ -32,6 +32,25 @@
 SCENE_LIST(SCENE_DECLARED)
 const scene *const scene_table[] = {SCENE_LIST(SCENE_ENTRY) NULL};
 
+/* ---- units ---- */
+
+#if SPH_DIM == 1
+#define ACROSS "/m^2"
+#elif SPH_DIM == 2
+#define ACROSS "/m"
+#else
+#define ACROSS ""
+#endif
+const scene_unit scene_si[] = {{"kg", "kg" ACROSS}, {"J", "J" ACROSS}, {"W", "W" ACROSS}, {NULL, NULL}};
+#define GRAY(cm)                                                                                            \
+    {                                                                                                       \
+        {"m", cm}, {"s", cm "/c0"}, {"m/s", "c0"}, {"m/s^2", "c0^2/" cm}, {"m^2/s", cm ".c0"},              \
+        {"kg/m^3", "rho0"}, {"Pa", "K"}, {"1/s", "c0/" cm}, {"kg", "rho0." cm "^2"}, {"J", "K." cm "^2"},   \
+        {"W", "K." cm ".c0"}, {NULL, NULL}                                                                  \
+    }
+const scene_unit scene_gray[] = GRAY("cm");
+const scene_unit scene_gray_km[] = GRAY("km");
+
 /* the options that are parameters */
 static void take_options(const double *p, sph_config *c)
 {

@@ -122,5 +122,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_standing_wave SPH_NAME(scene_standing_wave)
 extern const scene scene_standing_wave;
 const scene scene_standing_wave = {"standing_wave", "a standing gravity wave of small amplitude, one wavelength", param,
-                                   PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                                   PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                                   history, scene_si};
 #endif

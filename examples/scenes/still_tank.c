@@ -76,5 +76,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_still_tank SPH_NAME(scene_still_tank)
 extern const scene scene_still_tank;
 const scene scene_still_tank = {"still_tank", "water at rest in a tank, settling under damping (Gray 2001, 2.5.2)",
-                                param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                                param, PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                                history, scene_si};
 #endif

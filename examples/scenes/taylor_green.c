@@ -98,5 +98,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_taylor_green SPH_NAME(scene_taylor_green)
 extern const scene scene_taylor_green;
 const scene scene_taylor_green = {"taylor_green", "decaying vortices in a periodic square (Taylor & Green 1937)", param,
-                                  PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                                  PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                                  history, scene_si};
 #endif

@@ -100,5 +100,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_tension SPH_NAME(scene_tension)
 extern const scene scene_tension;
 const scene scene_tension = {"tension", "an elastic-plastic plate is pulled apart (Gray 2001, 6.4.1)", param,
-                             PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                             PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                             history, scene_gray};
 #endif
