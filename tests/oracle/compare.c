@@ -64,15 +64,16 @@ static void compare_solid(const o_scene *s, const o_particle *p, const seen *k)
 
 static void compare_body(const o_scene *s, const o_particle *p, const seen *k)
 {
-    static const char *const power[] = {"viscous power", "wall power", "diffusion", "body power"};
-    const o_sum *const sums[] = {&p->viscous, &p->worked, &p->diffused, &p->pushed};
+    static const char *const power[] = {"viscous power", "wall power", "diffusion power", "body power"};
+    const double per = o_diffused_per_rate(s, p);
+    const o_sum sums[] = {p->viscous, p->worked, {per * p->diffused.v, fabs(per) * p->diffused.s}, p->pushed};
     for (uint32_t c = 0; c < SPH_DIM; c++) {
         check("acceleration", p->id, c, k->a[c], p->a[c], 0);
         if (s->cfg.xsph > 0)
             check("xsph", p->id, c, k->drift[c], p->drift[c], 0);
     }
     for (uint32_t c = 0; s->cfg.books && c < 4; c++)
-        check(power[c], p->id, 0, k->power[c], *sums[c], 0);
+        check(power[c], p->id, 0, k->power[c], sums[c], 0);
     if (s->cfg.density == SPH_SUMMATION)
         check("summed density", p->id, 0, k->d, p->density, 0);
     if (o_is_solid(s, p))
@@ -146,6 +147,15 @@ static void compare_totals(const sph_sim *sim, const o_scene *s)
             check("angular momentum", SPH_NO_PARTICLE, k, t.angular[k], o.angular[k], 0);
     for (uint32_t k = 0; s->cfg.books && k < 4; k++)
         check(power[k], SPH_NO_PARTICLE, k, look_power(sim, k), book[k], 0);
+    if (s->cfg.books) { /* the instant balance: energies rise by what is given less what is taken */
+        static const int sign[] = {-1, 1, -1, 1, -1, -1, -1};
+        double sum = 0, size = 0;
+        for (uint32_t k = 0; k < 7; k++) {
+            sum += sign[k] * look_power(sim, k);
+            size += fabs(look_power(sim, k));
+        }
+        check("balance of powers", SPH_NO_PARTICLE, 0, sum, o.rise, size);
+    }
 }
 
 static void compare_probes(const sph_sim *sim, const plan *p, o_scene *s)

@@ -25,6 +25,28 @@ void o_sum_density(o_scene *s)
     o_refresh(s);
 }
 
+/* how fast the sums change with the places of particles and images: sum m_j (x'_i - x'_j) . grad W */
+void o_sum_rates(o_scene *s)
+{
+    for (uint32_t a = 0; a < s->n; a++)
+        for (int k = 0; k < 3; k++)
+            s->own[a].way[k] = o_is_body(s, &s->own[a]) ? s->own[a].v[k] + s->own[a].drift[k].v : s->own[a].wall[k];
+    o_copies(s);
+    for (uint32_t a = 0; a < s->n; a++) {
+        o_particle *i = &s->own[a];
+        i->moved_rate = (o_sum){0, 0};
+        for (uint32_t b = 0; b < s->m && o_is_body(s, i); b++) {
+            const o_particle *j = &s->all[b];
+            o_pair p;
+            if (!(o_is_body(s, j) || o_is_ghost(s, j)) || !o_pair_of(s, i, j, &p))
+                continue;
+            const double v[3] = {i->way[0] - j->way[0], i->way[1] - j->way[1], i->way[2] - j->way[2]};
+            const double m = s->set[j->set].mass;
+            o_add(&i->moved_rate, m * p.g * o_dot(v, p.x), m * p.slope * sqrt(o_dot(v, v)));
+        }
+    }
+}
+
 void o_filter_density(o_scene *s)
 {
     for (uint32_t a = 0; a < s->n; a++) {

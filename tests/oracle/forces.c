@@ -115,4 +115,6 @@ void o_forces(o_scene *s)
         if (o_is_body(s, i) || moves)
             end(s, i);
     }
+    if (s->cfg.density == SPH_SUMMATION)
+        o_sum_rates(s);
 }

@@ -140,6 +140,9 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
     double moved[SPH_DIM] = {0};
     if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion)
         sim->group[s->group].motion(sim->group[s->group].ctx, sim->now.time, moved, o->velocity);
+    if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion == sph_motion_steady)
+        for (int a = 0; a < SPH_DIM; a++)
+            o->accel[a] = ((const sph_steady *)sim->group[s->group].ctx)->a[a];
     for (int a = 0; a < SPH_DIM; a++) {
         o->origin[a] = s->origin[a] + sim->cfg.lo[a] + moved[a];
         o->normal[a] = s->normal[a];
@@ -240,13 +243,13 @@ uint32_t look_results(const sph_sim *sim, seen *to, uint32_t room)
             o->dev[k] = (double)b->stress[k][i];
             o->dev_rate[k] = (double)b->dstress[k][i];
         }
-        for (int k = 0; k < 4 && sim->power[0]; k++)
+        for (uint32_t k = 0; k < SPH_POWERS && sim->power[0]; k++)
             o->power[k] = (double)sim->power[k][i];
     }
     return sim->now.count;
 }
 
-double look_power(const sph_sim *sim, uint32_t k) { return sim->now.power[k]; }
+double look_power(const sph_sim *sim, uint32_t k) { return k < SPH_POWERS ? sim->now.power[k] : 0; }
 
 double look_limit(const sph_sim *sim, const char *part_of_name)
 {

@@ -65,11 +65,14 @@ typedef struct o_particle {
     double t[3][3];            /* T of a stress (solids) or p N/rho (Bonet & Lok) */
     double t_scale;
     double pull[3][3];         /* artificial stress R */
+    double way[3];             /* how its place moves: v + xsph, m/s */
     /* results */
     o_sum density;             /* relative excess: summed, filtered, or of a wall */
     o_sum wall_v[3];           /* of an Adami wall without slip */
     o_sum a[3], rate, stress_rate[3][3], drift[3];
-    o_sum viscous, worked, diffused, pushed; /* powers for the books, W/kg; diffused: d(rho)/dt by diffusion */
+    o_sum moved_rate;          /* of summed density: how fast the sum changes as places move */
+    o_sum diffused;            /* d(rho)/dt by diffusion */
+    o_sum viscous, worked, pushed; /* powers for the books, W/kg */
     o_sum gradient[3][3];      /* sum m_j v_ij (x) K g (weak: m_j/rho_j), of which L is made */
     double mu;                 /* largest |mu| of its pairs */
 } o_particle;
@@ -135,6 +138,7 @@ bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p);
 
 /* ---- the modules, one file each; what each computes is at its head ---- */
 void o_sum_density(o_scene *s);                /* density.c */
+void o_sum_rates(o_scene *s);
 void o_filter_density(o_scene *s);
 void o_adami(o_scene *s);                      /* adami.c */
 void o_smooth(o_scene *s);                     /* xsph.c */
@@ -172,8 +176,11 @@ o_limits o_find_limits(const o_scene *s);
 typedef struct o_totals {
     o_sum mass, momentum[3], angular[3], kinetic, potential, internal, elastic, plastic;
     o_sum dissipated, worked, diffused, pushed; /* W */
+    o_sum rise; /* d(kinetic + potential + internal + elastic)/dt, W, from the accelerations and rates */
 } o_totals;
 o_totals o_find_totals(const o_scene *s);
+bool o_loses(const o_scene *s); /* whether a form of the equations does not conserve energy pair by pair */
+double o_diffused_per_rate(const o_scene *s, const o_particle *p); /* -p/rho^2 of the pressure that acts */
 
 /* ---- probe.c ---- */
 typedef struct o_probe_value {

@@ -26,7 +26,9 @@ bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p)
     if (kernel == SPH_HAT || kernel == SPH_GAUSSIAN) /* they end with a step */
         o_close(s, "a pair at the kernel's edge", p->q, s->support, s->support);
     /* nearly at one place a cone has no slope to speak of; those of splines the kernel lets go to 0 below 1e-6 h */
-    if ((p->q > 0 || j->image) && p->q < (kernel == SPH_HAT ? 1e-5 : kernel <= SPH_QUINTIC ? 2e-6 : 0) * h)
+    const double least = kernel == SPH_HAT ? 0 : (SPH_DOUBLE ? 1e-13 : 1e-7) * h;
+    const double most = kernel == SPH_HAT ? 1e-5 * h : kernel <= SPH_QUINTIC ? 2e-6 * h : -1;
+    if ((p->q > 0 || j->image) && p->q >= least && p->q < most)
         s->undecided = "a pair nearly at one place";
     if (p->bond) {
         o_close(s, "a bond at its longest", p->r, s->support * s->cfg.max_stretch, s->support);

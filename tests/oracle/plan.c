@@ -190,6 +190,8 @@ static void draw_wall(plan *p, plan_wall *w, double *need)
         need[k] = o_max(need[k], from + size + margin + range(0, 1) * dx);
         if (chance(0.4))
             w->motion.v[k] = range(-0.1, 0.1) * p->cfg.sound_speed;
+        if (chance(0.2))
+            w->motion.a[k] = range(-50, 50);
     }
 }
 
@@ -221,7 +223,8 @@ static void draw_domain(plan *p)
         draw_wall(p, &p->wall[k], need);
     for (int k = 0; k < SPH_DIM; k++) {
         const bool around = c->face[k][0] == SPH_PERIODIC;
-        const double least = around ? 3.0001 * cell : o_max(c->spacing, 0.51 * support);
+        const bool between = c->face[k][0] != SPH_OPEN && c->face[k][1] != SPH_OPEN; /* two mirrors */
+        const double least = around ? 3.0001 * cell : between ? 1.0001 * cell : o_max(c->spacing, 0.51 * support);
         double length = chance(0.3) ? least * range(1, 1.3) : range(least, o_max(least * 1.4, 4.5 * support));
         length = o_max(length, need[k]);
         c->lo[k] = range(-30, 30) * c->spacing;
@@ -256,7 +259,7 @@ static void draw_state(plan *p, plan_point *q, double v, double d)
     if (q->set < p->fluids)
         return;
     const sph_solid *m = &p->solid[q->set - p->fluids];
-    const double size = chance(0.1) ? 0 : (m->shear > 0 ? m->shear : c->rho0) * 0.2;
+    const double size = chance(0.1) ? 0 : m->shear * 0.2; /* without shear modulus no stress comes to be */
     for (int k = 0; k < 5; k++)
         q->dev[k] = size * range(-1, 1);
     q->plastic = c->yield && chance(0.5) ? range(0, 0.5) : 0;

@@ -52,14 +52,15 @@ typedef struct seen {
     bool there;
     double x[3], v[3], a[3], d, rate, drift[3];
     double dev[5], dev_rate[5], plastic, root;
-    double power[4]; /* viscous, wall, diffusion (of density), body */
+    double power[8]; /* W/kg, in the order of the books */
 } seen;
 
 sph_sim *look_build(const plan *p, sph_report *why); /* null: refused */
 void look_scene(const sph_sim *sim, const plan *p, o_scene *s); /* the state as the oracle's input */
 uint32_t look_results(const sph_sim *sim, seen *to, uint32_t room);
 uint32_t look_flaws(const sph_sim *sim, uint32_t id, float *threshold);
-double look_power(const sph_sim *sim, uint32_t k); /* of the books, W: viscous, wall, diffusion, body */
+double look_power(const sph_sim *sim, uint32_t k); /* of the books, W: taken by viscosity, given by walls,
+   taken by diffusion, given by the body force; taken by walls, by bonds, unbalanced */
 double look_limit(const sph_sim *sim, const char *part_of_name); /* -1: no such limit */
 
 /* ---- compare.c ---- */

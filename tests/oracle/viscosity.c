@@ -6,7 +6,7 @@
                   eta only keeps it finite: 1e-6 h^2 (with 0.01 h^2 it would be some per cent too weak)
    Walls: with free slip none. GHOST: v_ij times beta = min(1.5, 1 + depth/distance), depth and distance of ghost and
    body from the wall's face (Gray 2.42, 2.43). ADAMI: v_i - v_w with the extrapolated v_w.
-   It takes energy by its work on the relative velocity; of two bodies each is charged half. */
+   It takes energy by its work on the relative velocity. */
 #include "oracle.h"
 
 #define MORRIS_SOFTENING 1e-6
@@ -55,7 +55,7 @@ void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p
         for (int b = 0; b < 3; b++)
             a[b] = c * v[b];
         const double soft = MORRIS_SOFTENING * h * h, near = soft / (p->r * p->r + soft) * h / o_max(p->r, 1e-4 * h);
-        scale = m * 2 * s->cfg.nu / rho * (p->slope / o_max(p->r, 0.1 * h)) * sqrt(o_dot(v, v)) * (1 + near);
+        scale = m * 2 * s->cfg.nu / rho * (p->slope / o_max(p->r, 0.01 * h)) * sqrt(o_dot(v, v)) * (1 + near);
     } else {
         const double c = 0.5 * (i->c + j->c);
         const double strength = h / rho * (s->cfg.alpha * c + s->cfg.beta * h * fabs(mu));
@@ -66,6 +66,10 @@ void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p
         scale = m * h / rho * (s->cfg.alpha * c + s->cfg.beta * h * 2 * size) * size * p->slope * stretch;
     }
     o_push(s, i, j, a, scale);
-    const double share = o_is_ghost(s, j) ? 1 : 0.5;
-    o_add(&i->viscous, -share * o_dot(a, p->v), share * scale * sqrt(o_dot(p->v, p->v)));
+    /* of two bodies each is charged half of the work on their relative velocity, or its own where the other one is not
+       pushed back alike */
+    double at[3];
+    for (int b = 0; b < 3; b++)
+        at[b] = o_is_ghost(s, j) ? p->v[b] : o_loses(s) ? i->v[b] : 0.5 * p->v[b];
+    o_add(&i->viscous, -o_dot(a, at), scale * sqrt(o_dot(at, at)));
 }
