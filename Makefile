@@ -94,6 +94,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
 .PHONY: restarts
+.PHONY: oracle oracle-breaks
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -184,6 +185,7 @@ builds_test_options := 1d 2f 3f
 builds_test_arena   := $(BUILDS)
 builds_test_sponge  := 1f 1d 2f 2d 3f
 builds_test_grid    := $(BUILDS)
+builds_test_oracle  := $(BUILDS)
 builds_of = $(or $(builds_$(1)),2f 2d)
 # the stability atlas (tests/lab): one program of parts from several builds
 atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension atlas_sponge box) \
@@ -196,13 +198,17 @@ test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/te
 command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o),$(tools_obj))
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
 
+# the oracle (tests/oracle): linked into its test, and a program for each build
+ORACLE := $(wildcard tests/oracle/*.c)
+oracle_of = $(if $(filter test_oracle,$(1)),$(patsubst %.c,$(BUILD)/obj/$(2)/%.o,$(filter-out %/main.c,$(ORACLE))))
+
 # tests with a kernel of their own, whose lists are longer by the lines of tests/extra_*.h
 EXTRA_TESTS := test_options
 obj_of = $(BUILD)/$(if $(filter $(1),$(EXTRA_TESTS)),extra,obj)/$(2)
 kernel_of = $(if $(filter $(1),$(EXTRA_TESTS)),$(KERNEL:%.c=$(BUILD)/extra/$(2)/%.o),$(BUILD)/libsph$(2).a)
 
 define test_rule
-$(BUILD)/tests/$(1)_$(2): $(call obj_of,$(1),$(2))/tests/$(1).o $(call of_tool,$(1),$(command_obj)) $(if $(filter test_atlas,$(1)),$(atlas_obj) $(atlas_libs)) $(port_obj) $(SCENES:%.c=$(call obj_of,$(1),$(2))/%.o) $(call kernel_of,$(1),$(2))
+$(BUILD)/tests/$(1)_$(2): $(call obj_of,$(1),$(2))/tests/$(1).o $(call of_tool,$(1),$(command_obj)) $(call oracle_of,$(1),$(2)) $(if $(filter test_atlas,$(1)),$(atlas_obj) $(atlas_libs)) $(port_obj) $(SCENES:%.c=$(call obj_of,$(1),$(2))/%.o) $(call kernel_of,$(1),$(2))
 	$$(say) link $$@
 	@mkdir -p $$(@D)
 	$$(Q)$$(CC) $$(ALL_CFLAGS) $$(LDFLAGS) $$(THREADS) $$^ -o $$@ -lcmocka $(call of_tool,$(1),$(PNG_LIBS)) -lm
@@ -268,6 +274,18 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 $(BUILD)/golden_%: $(BUILD)/obj/%/tests/golden_one.o $(BUILD)/obj/%/tests/golden.o $(BUILD)/libsph%.a
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+
+# random small scenes against a naive second way to all that the kernel computes: 3,400 of each build
+oracle_rule = $(eval $(BUILD)/oracle_$(1): $(ORACLE:%.c=$(BUILD)/obj/$(1)/%.o) $(BUILD)/libsph$(1).a)
+$(foreach b,$(BUILDS),$(call oracle_rule,$(b)))
+$(BUILDS:%=$(BUILD)/oracle_%):
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
+oracle: $(BUILDS:%=$(BUILD)/oracle_%)
+	$(Q)BUILD=$(BUILD) sh tests/oracle.sh $(SCENES_EACH)
+# the kernel broken in ten ways: the oracle must find each
+oracle-breaks:
+	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" sh tests/oracle_breaks.sh
 
 bits:
 	$(Q)BUILD=$(BUILD) GCC="$(GCC)" CLANG="$(CLANG)" MAKE="$(MAKE)" sh tests/bits.sh
@@ -474,6 +492,8 @@ help:
 	'make coverage   lines of sph/ that the tests run                          -> $(BUILD)/coverage.csv' \
 	'make lint       cppcheck, clang-tidy and the rules of the house' \
 	'make house      those rules alone: floors of files, lengths, words        -> $(BUILD)/house.csv' \
+	'make oracle     random small scenes against a naive second way             -> $(BUILD)/oracle.csv' \
+	'make oracle-breaks  does the oracle find a broken kernel?                 -> $(BUILD)/oracle_breaks.csv' \
 	'make gates      does every gate see what it guards against?               -> $(BUILD)/gates.csv' \
 	'make gates-quick  those that take seconds' \
 	'make mutants    single changes of the kernel: does a test see each? (hours) -> tests/results/mutants.csv' \

@@ -10,14 +10,17 @@
 #define SPH_PI 3.14159265358979323846
 
 #if SPH_HAS_FORCE_WALLS
+/* component k of a vector of a wall as its image shows it: `turned` has the bits of the axes that a mirror turns */
+static double seen(double v, uint32_t turned, int k) { return turned >> k & 1 ? -v : v; }
+
 /* the window along the wall, half a cosine wide dx on either side (Gray 2.41); in 3-D one for each direction */
-static double window(const sph_set *s, const double *r, double perp, double dx)
+static double window(const sph_set *s, uint32_t turned, const double *r, double perp, double dx)
 {
     double along[2] = {0, 0}, par2 = 0;
     for (int k = 0; k < SPH_DIM; k++) {
-        double par = r[k] - perp * s->normal[k];
+        double par = r[k] - perp * seen(s->normal[k], turned, k);
         par2 += par * par;
-        along[0] += par * s->tangent[k]; /* stays 0 but in 3-D */
+        along[0] += par * seen(s->tangent[k], turned, k); /* stays 0 but in 3-D */
     }
     double rest2 = par2 - along[0] * along[0];
     along[1] = rest2 > 0 ? __builtin_sqrt(rest2) : 0;
@@ -55,11 +58,12 @@ void sph_boundary_force(const sph_sim *sim, sph_thread *t, uint32_t h)
     double f[SPH_DIM] = {0}, power = 0;
     for (uint32_t j = 0; j < t->points.n; j++) {
         const sph_set *s = &sim->set[t->points.set[j]];
+        const uint32_t turned = t->points.turned[j];
         double r[SPH_DIM], r2 = 0, perp = 0, a[SPH_DIM];
         for (int k = 0; k < SPH_DIM; k++) {
             r[k] = (double)t->home.x[k][h] - (double)t->points.x[k][j];
             r2 += r[k] * r[k];
-            perp += r[k] * s->normal[k];
+            perp += r[k] * seen(s->normal[k], turned, k);
         }
         if (SPH_IS(s->kind, WALL_LENNARD_JONES)) {
             if (!(r2 < dx * dx) || r2 < 1e-6 * dx * dx)
@@ -70,13 +74,13 @@ void sph_boundary_force(const sph_sim *sim, sph_thread *t, uint32_t h)
         } else {
             if (perp < -dx || perp > sim->grid.support)
                 continue;
-            double c = normal_force(sim, s, perp) * window(s, r, perp, dx);
+            double c = normal_force(sim, s, perp) * window(s, turned, r, perp, dx);
             for (int k = 0; k < SPH_DIM; k++)
-                a[k] = c * s->normal[k];
+                a[k] = c * seen(s->normal[k], turned, k);
         }
         for (int k = 0; k < SPH_DIM; k++) {
             f[k] += a[k];
-            power += a[k] * sph_wall_velocity(sim, s, (uint32_t)k);
+            power += a[k] * seen(sph_wall_velocity(sim, s, (uint32_t)k), turned >> 3, k);
         }
     }
     for (int k = 0; k < SPH_DIM; k++)

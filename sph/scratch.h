@@ -34,6 +34,7 @@ typedef struct sph_points {
     uint32_t n;
     sph_real x[SPH_DIM][SPH_TILE_ROOM];
     uint8_t set[SPH_TILE_ROOM];
+    uint8_t turned[SPH_TILE_ROOM]; /* as the image shows it: bits 1 << axis, normal and tangent; 8 << axis, velocity */
 } sph_points;
 
 /* what the sort works on: new positions (and where asked, velocities and densities) of a block of particles */

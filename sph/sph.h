@@ -485,7 +485,7 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface);
    KERNEL_FORCE      one row with normals, f(r_perp) P(r_par) n (Gray 2.39-2.41 with (2/3)/h); strength is his nu
                      (-), usually 0.01
    MONAGHAN_KOS      one row with normals, (A/sqrt q)(1 - q) P(r_par) n for q = r_perp/2dx < 1 (Wickramarachchi
-                     6.10-6.12); strength is A (m/s^2), usually 0.01 c0^2/dx
+                     6.10-6.12); strength is A (m/s^2), usually 0.01 c0^2/dx; the kernel's support must be 2 dx or more
    GHOST             layers to the kernel's support that take part in every sum; mirror velocity in the viscosity,
                      beta_max 1.5 (Gray 2.42-2.43, after Morris, Fox & Zhu 1997); density evolved by
                      continuity ("compressible") or held at rho0 ("incompressible")

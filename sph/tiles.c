@@ -120,7 +120,11 @@ void sph_load_points(const sph_candidates *r, sph_points *t)
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t j = 0; j < r->n; j += SPH_W)
             v_store(t->x[k] + t->n + j, sph_seen_place(r, k, v_load_int(r->b->pos[k] + r->first + j)));
+    uint32_t turned = 0;
+    for (uint32_t k = 0; SPH_HAS_MIRRORS && k < SPH_DIM; k++)
+        turned |= (r->im->sign[k] < 0 ? 1u << k : 0) | (r->im->flip[k] < 0 ? 8u << k : 0);
     memset(t->set + t->n, (int)(r->set - r->sim->set), r->n);
+    memset(t->turned + t->n, (int)turned, r->n);
 }
 
 void sph_close_tile(const sph_sim *sim, sph_tile *t)

@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* compare.c: kernel and oracle side by side on one plan. The first forces give densities, rates, accelerations, stress
+   rates, walls' values, powers, limits, totals and probes; a step of nearly no time gives what happens once a step
+   whatever its size: the Shepard filter, growing damage, sponge layers. Tolerance: 1e-11 (double) or 1e-5 (float) of the
+   natural scale, which is the sum of the magnitudes of what was added up. */
+#include <stdio.h>
+#include <string.h>
+
+#include "plan.h"
+
+#define TOLERANCE (SPH_DOUBLE ? 1e-11 : 1e-5)
+
+/* ---- noting differences ---- */
+
+/* the largest difference of each quantity so far, of those that are too large */
+static difference found[PLAN_QUANTITIES];
+static uint32_t founds;
+static const char *wanted;
+
+static void check(const char *name, uint32_t particle, uint32_t component, double kernel, o_sum oracle, double floor)
+{
+    uint32_t k = 0;
+    if (wanted && strcmp(wanted, name) != 0)
+        return;
+    const double scale = o_max(oracle.s, fabs(oracle.v)) + floor;
+    double ratio = fabs(kernel - oracle.v) / (TOLERANCE * scale + 1e-40);
+    if (!(ratio == ratio))
+        ratio = 1e300;
+    if (!(ratio > 1))
+        return;
+    while (k < founds && strcmp(found[k].name, name) != 0)
+        k++;
+    if (k == PLAN_QUANTITIES || (k < founds && found[k].ratio >= ratio))
+        return;
+    founds = k < founds ? founds : k + 1;
+    found[k] = (difference){name, particle, component, kernel, oracle.v, scale, ratio};
+}
+static o_sum exact(double v) { return (o_sum){v, fabs(v)}; }
+
+/* ---- the first forces ---- */
+
+static double kept(const double (*m)[3], int k)
+{
+    static const int at[2][5][2] = {{{0, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}}};
+    return m[at[SPH_DIM == 3][k][0]][at[SPH_DIM == 3][k][1]];
+}
+static o_sum kept_sum(const o_sum (*m)[3], int k)
+{
+    static const int at[2][5][2] = {{{0, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}}};
+    return m[at[SPH_DIM == 3][k][0]][at[SPH_DIM == 3][k][1]];
+}
+enum { KEPT = SPH_DIM == 1 ? 1 : SPH_DIM == 2 ? 3 : 5 };
+
+static void compare_solid(const o_scene *s, const o_particle *p, const seen *k)
+{
+    const o_set *set = &s->set[p->set];
+    const double modulus = set->shear;
+    for (int c = 0; c < KEPT; c++) {
+        check("stress", p->id, (uint32_t)c, k->dev[c], exact(kept((const double(*)[3])p->dev, c)), 0);
+        check("stress rate", p->id, (uint32_t)c, k->dev_rate[c], kept_sum((const o_sum(*)[3])p->stress_rate, c), 0);
+    }
+    check("plastic strain", p->id, 0, k->plastic, exact(p->plastic), modulus > 0 ? set->yield / modulus : 0);
+}
+
+static void compare_body(const o_scene *s, const o_particle *p, const seen *k)
+{
+    static const char *const power[] = {"viscous power", "wall power", "diffusion power", "body power"};
+    const double per = o_diffused_per_rate(s, p);
+    const o_sum sums[] = {p->viscous, p->worked, {per * p->diffused.v, fabs(per) * p->diffused.s}, p->pushed};
+    for (uint32_t c = 0; c < SPH_DIM; c++) {
+        check("acceleration", p->id, c, k->a[c], p->a[c], 0);
+        if (s->cfg.xsph > 0)
+            check("xsph", p->id, c, k->drift[c], p->drift[c], 0);
+    }
+    for (uint32_t c = 0; s->cfg.books && c < 4; c++)
+        check(power[c], p->id, 0, k->power[c], sums[c], 0);
+    if (s->cfg.density == SPH_SUMMATION)
+        check("summed density", p->id, 0, k->d, p->density, 0);
+    if (o_is_solid(s, p))
+        compare_solid(s, p, k);
+}
+
+static void compare_forces(const o_scene *s, const seen *kernel)
+{
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        const seen *k = &kernel[p->id];
+        const o_set *set = &s->set[p->set];
+        const double rho0 = set->rho0;
+        if (o_is_body(s, p))
+            compare_body(s, p, k);
+        if (o_is_body(s, p) || set->compressible)
+            check("density rate", p->id, 0, k->rate * rho0, p->rate, 0);
+        if (set->role != SPH_ROLE_GHOST || set->kind != SPH_WALL_ADAMI)
+            continue;
+        check("wall density", p->id, 0, k->d, p->density, 0);
+        for (uint32_t c = 0; set->no_slip && c < SPH_DIM; c++)
+            check("wall velocity", p->id, c, k->v[c], p->wall_v[c], 0);
+    }
+}
+
+/* the particle with the largest acceleration says how well the force limit is known */
+static double force_scale(const o_scene *s)
+{
+    double most = 0, scale = 1;
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        const double a = sqrt(p->a[0].v * p->a[0].v + p->a[1].v * p->a[1].v + p->a[2].v * p->a[2].v);
+        if (o_is_body(s, p) && a > most) {
+            most = a;
+            scale = 1 + (p->a[0].s + p->a[1].s + p->a[2].s) / a;
+        }
+    }
+    return scale;
+}
+
+static void compare_limits(const sph_sim *sim, const o_scene *s)
+{
+    const o_limits l = o_find_limits(s);
+    const struct {
+        const char *name, *part;
+        double v, scale;
+    } of[] = {{"courant limit", "courant", l.courant, 1},   {"viscous limit", "viscous", l.viscous, 1},
+              {"force limit", "force", l.force, force_scale(s)}, {"gravity limit", "gravity", l.gravity, 1},
+              {"diffusion limit", "diffusi", l.diffusion, 1}};
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++)
+        check(of[k].name, SPH_NO_PARTICLE, 0, look_limit(sim, of[k].part), (o_sum){of[k].v, of[k].v * of[k].scale}, 0);
+}
+
+static void compare_totals(const sph_sim *sim, const o_scene *s)
+{
+    static const char *const power[] = {"book of viscosity", "book of walls", "book of diffusion", "book of body forces"};
+    const o_totals o = o_find_totals(s);
+    const o_sum book[] = {o.dissipated, o.worked, o.diffused, o.pushed};
+    sph_totals t;
+    sph_get_totals(sim, &t);
+    check("mass", SPH_NO_PARTICLE, 0, t.mass, o.mass, 0);
+    check("kinetic", SPH_NO_PARTICLE, 0, t.kinetic, o.kinetic, 0);
+    check("potential", SPH_NO_PARTICLE, 0, t.potential, o.potential, 0);
+    check("internal", SPH_NO_PARTICLE, 0, t.internal, o.internal, 0);
+    check("elastic", SPH_NO_PARTICLE, 0, t.elastic, o.elastic, 0);
+    check("plastic work", SPH_NO_PARTICLE, 0, t.plastic_work, o.plastic, 0);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        check("momentum", SPH_NO_PARTICLE, k, t.momentum[k], o.momentum[k], 0);
+    for (uint32_t k = 0; k < 3; k++)
+        if (SPH_DIM == 3 || (SPH_DIM == 2 && k == 2))
+            check("angular momentum", SPH_NO_PARTICLE, k, t.angular[k], o.angular[k], 0);
+    for (uint32_t k = 0; s->cfg.books && k < 4; k++)
+        check(power[k], SPH_NO_PARTICLE, k, look_power(sim, k), book[k], 0);
+    if (s->cfg.books) { /* the instant balance: energies rise by what is given less what is taken */
+        static const int sign[] = {-1, 1, -1, 1, -1, -1, -1};
+        double sum = 0, size = 0;
+        for (uint32_t k = 0; k < 7; k++) {
+            sum += sign[k] * look_power(sim, k);
+            size += fabs(look_power(sim, k));
+        }
+        check("balance of powers", SPH_NO_PARTICLE, 0, sum, o.rise, size);
+    }
+}
+
+static void compare_probes(const sph_sim *sim, const plan *p, o_scene *s)
+{
+    for (uint32_t i = 0; i < p->probes; i++) {
+        sph_probe_value v;
+        const o_probe_value o = o_probe(s, p->probe[i]);
+        if (sph_probe(sim, p->probe[i], &v) != SPH_OK)
+            continue;
+        o_close(s, "a probe that sees nearly nothing", o.cover.v, 1e-6, 1e-3);
+        check("probe cover", i, 0, v.cover, o.cover, 0);
+        check("probe rho", i, 0, v.rho, o.rho, 0);
+        check("probe p", i, 0, v.p, o.p, 0);
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            check("probe v", i, k, v.v[k], o.v[k], 0);
+    }
+}
+
+/* ---- a step of nearly no time ---- */
+
+static seen kernel[4096], before[4096];
+
+/* where even so short a way may lead through a face or turn a velocity */
+static bool on_a_face(const o_scene *s, const o_particle *p)
+{
+    bool on = false;
+    for (int k = 0; k < SPH_DIM; k++)
+        on |= p->x[k] - s->cfg.lo[k] < 1e-6 * s->cfg.spacing || s->cfg.hi[k] - p->x[k] < 1e-6 * s->cfg.spacing;
+    return on;
+}
+
+static void compare_still(const sph_sim *sim, o_scene *s, double dt)
+{
+    look_results(sim, kernel, 4096);
+    if (s->cfg.shepard_every)
+        o_filter_density(s);
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        const o_set *set = &s->set[p->set];
+        const seen *k = &kernel[p->id];
+        if (!o_is_body(s, p) || on_a_face(s, p) || !k->there)
+            continue;
+        if (s->cfg.shepard_every)
+            check("filtered density", p->id, 0, k->d, p->density, 2 * dt * fabs(k->rate) / TOLERANCE);
+        for (uint32_t c = 0; c < SPH_DIM; c++) {
+            const bool held = set->held >> c & 1;
+            const double ref = s->cfg.sponge_velocity[c], f = held ? 1 : exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);
+            check("velocity after a sponge", p->id, c, k->v[c], exact(ref + (p->v[c] - ref) * f),
+                  fabs(p->v[c]) + set->c0 +
+                      10 * dt * (fabs(k->a[c]) + fabs(before[p->id].a[c])) / TOLERANCE);
+        }
+        if (!s->cfg.damage || !o_is_solid(s, p))
+            continue;
+        float flaw[SPH_MAX_FLAWS];
+        const uint32_t flaws = look_flaws(sim, p->id, flaw);
+        check("damage", p->id, 0, k->root, exact(o_grown_root(s, p, flaw, flaws, dt)), 0);
+    }
+}
+
+/* ---- a plan ---- */
+
+static o_scene scene;
+
+static verdict compare(const plan *p, const char **why)
+{
+    sph_report report;
+    sph_sim *sim = look_build(p, &report);
+    if (!sim) {
+        *why = report.what;
+        return PLAN_REFUSED;
+    }
+    look_scene(sim, p, &scene);
+    if (sph_ready(sim) != SPH_OK) {
+        *why = sph_status_text(sph_last(sim)->status);
+        return PLAN_REFUSED;
+    }
+    o_refresh(&scene);
+    o_yield(&scene);
+    if (scene.cfg.density == SPH_SUMMATION)
+        o_sum_density(&scene);
+    o_forces(&scene);
+    look_results(sim, kernel, 4096);
+    compare_forces(&scene, kernel);
+    compare_limits(sim, &scene);
+    look_scene(sim, p, &scene); /* totals and probes of the state that the kernel has now */
+    o_refresh(&scene);
+    compare_probes(sim, p, &scene);
+    if (!scene.undecided) {
+        /* the books' powers need the sums once more */
+        o_forces(&scene);
+        compare_totals(sim, &scene);
+    }
+    *why = scene.undecided;
+    if (!p->still_step || scene.undecided)
+        return PLAN_SAME;
+    look_scene(sim, p, &scene);
+    o_refresh(&scene);
+    look_results(sim, before, 4096);
+    const double dt = PLAN_STILL * p->cfg.spacing / p->cfg.sound_speed;
+    scene.cfg.dt = dt;
+    if (sph_reconfigure(sim, &scene.cfg) != SPH_OK || sph_step(sim) != SPH_OK) {
+        *why = sph_status_text(sph_last(sim)->status);
+        return PLAN_REFUSED;
+    }
+    compare_still(sim, &scene, dt);
+    *why = scene.undecided;
+    return PLAN_SAME;
+}
+
+verdict plan_compare(const plan *p, const char *only, difference *d, uint32_t *n, const char **why)
+{
+    const char *said = NULL;
+    founds = 0;
+    wanted = only;
+    const verdict v = compare(p, &said);
+    if (why)
+        *why = said;
+    *n = founds;
+    memcpy(d, found, founds * sizeof *d);
+    if (v == PLAN_REFUSED)
+        return v;
+    if (scene.undecided)
+        return PLAN_UNDECIDED;
+    return founds ? PLAN_DIFFERS : PLAN_SAME;
+}

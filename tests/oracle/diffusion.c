@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* diffusion.c: density diffusion, between particles of one set (sph.h, SPH_MOLTENI ...):
+     drho_i = 2 delta h c sum (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + 0.01 h^2)
+   MOLTENI (Molteni & Colagrossi 2009): rho_H = 0. HYDROSTATIC (Fourtakas et al. 2019, linearised): the difference of
+   density that gravity makes between the places of j and i, rho0 g . (x_j - x_i)/c^2 with
+   the true sound speed c, so that still water feels none.
+   Behind a mirror plane the water stands upside down: there x_j is the place of which the image is seen. */
+#include "oracle.h"
+
+void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p)
+{
+    const double h = s->cfg.smoothing_length;
+    const o_set *set = &s->set[i->set];
+    if (s->cfg.diffusion == SPH_NO_DIFFUSION || j->set != i->set || !o_is_body(s, i))
+        return;
+    const double sound = o_sound(set->eos, set->c0);
+    double drho = j->rho - i->rho, size = i->rho + j->rho;
+    for (int k = 0; k < SPH_DIM && s->cfg.diffusion == SPH_HYDROSTATIC; k++) {
+        const uint32_t low = s->cfg.face[k][0], high = s->cfg.face[k][1];
+        double x = j->x[k]; /* behind a mirror: the place that is seen in it */
+        if (j->image && x < s->cfg.lo[k] && low != SPH_PERIODIC)
+            x = 2 * s->cfg.lo[k] - x;
+        else if (j->image && x > s->cfg.hi[k] && high != SPH_PERIODIC)
+            x = 2 * s->cfg.hi[k] - x;
+        const double part = set->rho0 * s->cfg.gravity[k] * (x - i->x[k]) / (sound * sound);
+        drho -= part;
+        size += fabs(part);
+    }
+    const double c = 2 * s->cfg.delta * h * set->c0 * p->volume;
+    const double f = -p->r * p->r * p->g / (p->r * p->r + 0.01 * h * h);
+    o_add(&i->diffused, c * drho * f, c * size * p->slope / o_max(p->r, 0.1 * h));
+}

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* oracle.h: a second, naive way to all that the kernel computes, to compare the kernel with. Plain C, double precision,
+   every pair looked at, images as explicit copies of particles. Written from the equations (sph.h and the sources named
+   at the head of each file) and not from the kernel, of which nothing is included but the public header.
+
+   A scene is a list of particles and the constants of their sets. Every quantity that is compared is an o_sum: its
+   value, and the sum of the magnitudes of what it was added up from, which is the scale of its rounding errors. All
+   vectors and tensors have three components; those that the dimension has not are 0, but for the stress out of the
+   plane. */
+#ifndef ORACLE_H
+#define ORACLE_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "sph/sph.h"
+
+#define O_PI 3.14159265358979323846
+
+/* ---- values with their scale ---- */
+
+typedef struct o_sum {
+    double v, s;
+} o_sum;
+static inline void o_add(o_sum *a, double term, double magnitude)
+{
+    a->v += term;
+    a->s += magnitude;
+}
+static inline void o_plus(o_sum *a, double term) { o_add(a, term, fabs(term)); }
+
+/* ---- a scene ---- */
+
+typedef struct o_set {
+    uint32_t role, kind, eos; /* SPH_ROLE_..., SPH_WALL_..., SPH_TAIT ... */
+    bool compressible, no_slip;
+    double mass, rho0, c0, strength;          /* kg, kg/m^3, m/s; of walls as in sph_wall */
+    double origin[3], normal[3], tangent[3];  /* of walls: a point of the face (m), into the fluid, along the face */
+    double velocity[3], accel[3];             /* m/s, m/s^2, of what moves as it is told */
+    double shear, yield, hardening, crack;    /* Pa, Pa, Pa, 1/s */
+    uint32_t body, held;
+} o_set;
+
+typedef struct o_particle {
+    uint32_t id, set;
+    bool image;
+    /* state */
+    double x[3], v[3], d;      /* m, m/s, (rho - rho0)/rho0 */
+    double rest[3];            /* reference position (m) */
+    double dev[3][3];          /* deviatoric stress, Pa, without damage */
+    double plastic, root;      /* equivalent plastic strain, D^(1/SPH_DIM) */
+    /* what follows from the state alone */
+    double rho, p, c;          /* kg/m^3, Pa (after the floor), c0 of its set */
+    double sigma[3][3];        /* stress after damage, Pa */
+    double normal[3];          /* of a wall's face, as the image shows it */
+    double origin[3], tangent[3];
+    double wall[3];            /* velocity that a wall is told, m/s */
+    double seen[3];            /* velocity that viscosity sees of a wall */
+    /* what sums over neighbours give before the forces */
+    double smooth[3];          /* xsph velocity that strain rates see, m/s */
+    double inverse[3][3];      /* of the gradient's M (solids), N or B (fluids) */
+    double inverse_scale;      /* magnitude that rounding errors of the inverse are relative to */
+    double t[3][3];            /* T of a stress (solids) or p N/rho (Bonet & Lok) */
+    double t_scale;
+    double pull[3][3];         /* artificial stress R */
+    double way[3];             /* how its place moves: v + xsph, m/s */
+    /* results */
+    o_sum density;             /* relative excess: summed, filtered, or of a wall */
+    o_sum wall_v[3];           /* of an Adami wall without slip */
+    o_sum a[3], rate, stress_rate[3][3], drift[3];
+    o_sum moved_rate;          /* of summed density: how fast the sum changes as places move */
+    o_sum diffused;            /* d(rho)/dt by diffusion */
+    o_sum viscous, worked, pushed; /* powers for the books, W/kg */
+    o_sum gradient[3][3];      /* sum m_j v_ij (x) K g (weak: m_j/rho_j), of which L is made */
+    double mu;                 /* largest |mu| of its pairs */
+} o_particle;
+
+typedef struct o_scene {
+    sph_config cfg;
+    o_set set[SPH_MAX_SETS];
+    uint32_t sets;
+    double support, time;
+    uint32_t n, m;             /* particles; with their images */
+    o_particle *own;           /* n */
+    o_particle *all;           /* m: the particles and then the images */
+    uint32_t room;
+    const char *undecided;     /* a choice that rounding decides (a pair exactly at a kernel's edge ...), or null */
+} o_scene;
+
+static inline bool o_is_body(const o_scene *s, const o_particle *p)
+{
+    return s->set[p->set].role == SPH_ROLE_FLUID || s->set[p->set].role == SPH_ROLE_SOLID;
+}
+static inline bool o_is_solid(const o_scene *s, const o_particle *p) { return s->set[p->set].role == SPH_ROLE_SOLID; }
+static inline bool o_is_ghost(const o_scene *s, const o_particle *p) { return s->set[p->set].role == SPH_ROLE_GHOST; }
+static inline bool o_is_weak(const o_scene *s)
+{
+    return s->cfg.scheme == SPH_WEAK || s->cfg.scheme == SPH_DIRECT || s->cfg.scheme == SPH_WEAK_WICK;
+}
+static inline bool o_has_solids(const o_scene *s) { return s->cfg.solid != SPH_NO_SOLID; }
+static inline double o_dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static inline double o_max(double a, double b) { return a > b ? a : b; }
+static inline double o_min(double a, double b) { return a < b ? a : b; }
+/* notes that rounding decides between two ways if x and y, of this scale, are as good as equal */
+static inline void o_close(o_scene *s, const char *what, double x, double y, double scale)
+{
+    if (fabs(x - y) <= (SPH_DOUBLE ? 1e-9 : 1e-4) * scale)
+        s->undecided = what;
+}
+
+/* ---- weights.c: smoothing kernels ---- */
+double o_weight(uint32_t kernel, double r, double h);       /* W, 1/m^DIM */
+double o_weight_slope(uint32_t kernel, double r, double h); /* dW/dr */
+double o_weight_support(uint32_t kernel);                   /* in units of h */
+
+/* ---- states.c: equations of state ---- */
+double o_pressure(uint32_t eos, double rho0, double c0, double d);         /* Pa, without floor */
+double o_energy(uint32_t eos, double rho0, double c0, double d, bool floor); /* J/kg: integral of p/rho^2 d rho */
+double o_excess_at(uint32_t eos, double rho0, double c0, double p);        /* the excess at a pressure */
+double o_sound(uint32_t eos, double c0);                                   /* its true sound speed at rest */
+void o_refresh(o_scene *s); /* rho, p, sigma of every particle from d, dev, damage */
+
+/* ---- images.c: copies behind periodic and mirror faces ---- */
+void o_copies(o_scene *s); /* makes s->all out of s->own */
+
+/* ---- pairs.c: what two particles are to each other ---- */
+typedef struct o_pair {
+    double x[3], v[3], r;     /* x_ij, v_ij, |x_ij| */
+    double k[3], q;           /* K, the vector that the kernel sees, and its length */
+    double g, w;              /* (dW/dr)/|K|, W at |K|; g is 0 at |K| = 0 */
+    double slope, value;      /* magnitudes of grad W and W for the scale of errors */
+    bool apart, bond;         /* of two bodies; of one body, seen in the reference position */
+    double volume;            /* m_j/rho_j */
+} o_pair;
+bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p); /* false: beyond the support */
+
+/* ---- the modules, one file each; what each computes is at its head ---- */
+void o_sum_density(o_scene *s);                /* density.c */
+void o_sum_rates(o_scene *s);
+void o_filter_density(o_scene *s);
+void o_adami(o_scene *s);                      /* adami.c */
+void o_smooth(o_scene *s);                     /* xsph.c */
+void o_drift(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
+void o_correct(o_scene *s);                    /* gradient.c: M, N, B and their inverses */
+void o_gradient_vector(const o_scene *s, const o_particle *i, const o_particle *j, const o_pair *p, double *k,
+                       double *scale);         /* RENORMALISED: B_ij x_ij, else x_ij */
+void o_continuity(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);  /* fluid.c */
+void o_pressure_force(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
+void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p); /* viscosity.c */
+void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);   /* diffusion.c */
+void o_boundary(o_scene *s, o_particle *i, const o_particle *j);                           /* boundary.c */
+void o_stresses(o_scene *s);                                                               /* stress.c */
+void o_stress_force(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
+void o_strain_rates(const o_scene *s, o_particle *i);
+void o_contact(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);     /* contact.c */
+void o_tensile_part(o_scene *s, const double (*sigma)[3], bool principal, double (*r)[3]); /* principal.c */
+double o_largest_principal(const double (*sigma)[3], bool plane);
+void o_yield(o_scene *s);                                                                  /* yield.c */
+double o_grown_root(o_scene *s, const o_particle *i, const float *flaw, uint32_t flaws, double dt); /* damage.c */
+double o_sponge(const o_scene *s, const o_particle *i);                                    /* sponge.c: S */
+void o_forces(o_scene *s);                     /* forces.c: everything before and in the force evaluation */
+
+/* a pair gives the home's acceleration `part` (m/s^2) with a scale; books.c keeps the powers of walls */
+void o_push(const o_scene *s, o_particle *i, const o_particle *j, const double *part, double scale);
+
+/* ---- limits.c ---- */
+typedef struct o_limits {
+    double courant, viscous, force, gravity, diffusion; /* s, 0: none */
+    double courant_scale;
+} o_limits;
+o_limits o_find_limits(const o_scene *s);
+
+/* ---- books.c ---- */
+typedef struct o_totals {
+    o_sum mass, momentum[3], angular[3], kinetic, potential, internal, elastic, plastic;
+    o_sum dissipated, worked, diffused, pushed; /* W */
+    o_sum rise; /* d(kinetic + potential + internal + elastic)/dt, W, from the accelerations and rates */
+} o_totals;
+o_totals o_find_totals(const o_scene *s);
+bool o_loses(const o_scene *s); /* whether a form of the equations does not conserve energy pair by pair */
+double o_diffused_per_rate(const o_scene *s, const o_particle *p); /* -p/rho^2 of the pressure that acts */
+
+/* ---- probe.c ---- */
+typedef struct o_probe_value {
+    o_sum cover, rho, p, v[3];
+} o_probe_value;
+o_probe_value o_probe(const o_scene *s, const double *x);
+
+#endif
