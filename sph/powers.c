@@ -56,7 +56,7 @@ sph_status sph_add_powers(sph_sim *sim)
             sim->next.work[1] += sum;
             break;
         }
-        sim->next.work[k] += 0.5 * sim->dt * (sim->now.power[k] + sum);
+        sim->next.work[k] += sph_work_of(sim, sim->now.power[k], sum);
         sim->next.power[k] = sum;
     }
     return SPH_OK;
