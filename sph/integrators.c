@@ -209,7 +209,8 @@ static const sph_stage begins = {0, 0, 0, 0, 1, false, true, true, false};
 static const sph_stage predicts = {1, 0.5, 1, 1, 1, true, true, false, false}; /* Gray 2001 eqs 2.26, 2.27, 2.29 */
 static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0.5, 1, true, true, false, true};
 static const sph_stage leaps = {1, 0, 0, 0.5, 1, false, true, true, true};
-static const sph_stage half_way = {0.5, 0, 0.5, 0.5, 0.5, false, false, false, false}; /* Wickramarachchi 3.85, mean of 3.91 */
+/* Wickramarachchi 3.85, mean of 3.91 */
+static const sph_stage half_way = {0.5, 0, 0.5, 0.5, 0.5, false, false, false, false};
 
 /* ---- the table ---- */
 

@@ -19,8 +19,8 @@ int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v);
 
 /* ---- move.c: a block of particles of buffer src ---- */
 
-/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho, and + foresight
-   rise in the predictor-corrector */
+/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho, in
+   the predictor-corrector + foresight rise */
 typedef struct sph_move {
     sph_real drift, bend, kick, rate, foresight, damping;
 } sph_move;

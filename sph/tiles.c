@@ -19,9 +19,10 @@ typedef struct tile_choice {
     bool wall, is_image;        /* velocities of a wall's group; seen through an image */
 } tile_choice;
 
-/* In the middle of a step, at whose end the particles stand, they are seen half a step's way back. A pair that is within
-   a support there but not at the end may be missed, if it stands more than a cell apart: that is within dt |v_ij|/2 of
-   the kernel's edge, where its slope is of second order or higher in that distance. An image goes the image's way.
+/* In the middle of a step, at whose end the particles stand, they are seen half a step's way back. A pair that is
+   within a support there but not at the end may be missed, if it stands more than a cell apart: that is within dt
+   |v_ij|/2 of the kernel's edge, where its slope is of second order or higher in that distance. An image goes the
+   image's way.
 
    Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by
    the next run or by sph_close_tile. */

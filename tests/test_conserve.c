@@ -179,8 +179,8 @@ static double drift(uint32_t integrator, double dt, uint32_t viscosity, double *
 }
 
 /* semi-discrete SPH with the consistent continuity equation conserves energy exactly, so what is left is the error of
-   time integration: second order in c0 dt/h, so a sixteenth of it is left at a quarter of the step (0.0625; first order:
-   0.25) */
+   time integration: second order in c0 dt/h, so a sixteenth of it is left at a quarter of the step (0.0625; of first
+   order it would be 0.25) */
 static void energy_of_an_inviscid_drop_drifts_by_time_error_only(void **state)
 {
     double lost;

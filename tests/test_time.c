@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_time.c: the speed of sound, the limits of the step, falling and bouncing bodies, steps that change, fields that are
-   given in mid-run. The order of the integrators: test_order.c. */
+/* test_time.c: the speed of sound, the limits of the step, falling and bouncing bodies, steps that change, fields that
+   are given in mid-run. The order of the integrators: test_order.c. */
 #include "testing.h"
 
 #define N 40u
@@ -170,8 +170,8 @@ static sph_sim *falling(const sph_config *c, double x0, double v0)
     return sim;
 }
 
-/* What is below a mirror face is the mirror image of what is above, gravity too: a bounce turns a velocity and changes it
-   by no more than the pull of a step, up or down, and on the average not at all */
+/* What is below a mirror face is the mirror image of what is above, gravity too: a bounce turns a velocity and changes
+   it by no more than the pull of a step, up or down, and on the average not at all */
 static void a_bounce_keeps_the_speed(void **state)
 {
     (void)state;

@@ -363,8 +363,8 @@ static void a_particle_bounces_off_a_mirror_and_is_counted(void **state)
     }
 }
 
-/* momentum along x that a piston of Adami's wall has given to water at rest, at t = 0.02 s: it stands until a row of its
-   table, then goes with 0.5 m/s; `cut`: a step of 1 us is put in behind that row */
+/* momentum along x that a piston of Adami's wall has given to water at rest, at t = 0.02 s: it stands until a row of
+   its table, then goes with 0.5 m/s; `cut`: a step of 1 us is put in behind that row */
 static double pushed_by_a_table(uint32_t integrator, double cut, double *force)
 {
     static const double t[3] = {0, 0.01, 0.11}, x[3] = {0, 0, 0.05};
@@ -402,8 +402,8 @@ static double pushed_by_a_table(uint32_t integrator, double cut, double *force)
     return sum.momentum[0];
 }
 
-/* The velocity of a table jumps at its rows. The push on the water does not depend on how the step there is cut; its force
-   neither, but for what half a step of the jump is in the predictor-corrector's trapezoidal rule. */
+/* The velocity of a table jumps at its rows. The push on the water does not depend on how the step there is cut; its
+   force neither, but for what half a step of the jump is in the predictor-corrector's trapezoidal rule. */
 static void a_jump_of_a_wall_gives_the_same_push_however_a_step_is_cut(void **state)
 {
     (void)state;
