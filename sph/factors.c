@@ -4,17 +4,17 @@
 #include "factors.h"
 #include "kernels.h"
 
-/* The predictor-corrector evaluates forces once a step, at the predicted state, and keeps them. In fluids it foresees the
-   rise of the rate of density (kick.h), and stands an oscillation up to w dt = 0.75, where kick-drift-kick stands 2; in
-   disorder that is a Courant number of 0.5. Corrected gradients about double the frequency of the shortest waves at a
-   surface. */
+/* The predictor-corrector evaluates forces once a step, at the predicted state, and keeps them. In fluids it foresees
+   the rise of the rate of density (kick.h), and stands an oscillation up to w dt = 0.75, where kick-drift-kick stands
+   2; in disorder that is a Courant number of 0.5. Corrected gradients about double the frequency of the shortest waves
+   at a surface. */
 #define PC_FLUID 0.5
 #define PC_FLUID_CORRECTED 0.25
-/* Of solids nothing is foreseen: an oscillation is multiplied by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu + z/2 =
-   0, z = i w dt). Sound of the shortest waves grows unless dissipation, whose effect a step goes as dt, is stronger: so
-   the largest Courant number goes as its cube root. 0.22 is what a still tank of 30 particles stood with alpha = 0.01
-   alone; with alpha 0.02, 0.1, 0.5 a free block of a solid kept quiet up to 0.29, 0.43, 0.65 (updated), 0.18, 0.24, 0.37
-   (corrected). */
+/* Of solids nothing is foreseen: an oscillation is multiplied by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu +
+   z/2 = 0, z = i w dt). Sound of the shortest waves grows unless dissipation, whose effect a step goes as dt, is
+   stronger: so the largest Courant number goes as its cube root. 0.22 is what a still tank of 30 particles stood with
+   alpha = 0.01 alone; with alpha 0.02, 0.1, 0.5 a free block of a solid kept quiet up to 0.29, 0.43, 0.65 (updated),
+   0.18, 0.24, 0.37 (corrected). */
 #define PC_COURANT 0.22
 #define PC_DISSIPATION (0.01 / 8) /* nu/(h c) of artificial viscosity with alpha 0.01 in 2-D */
 #define PC_COURANT_LEAST 0.05

@@ -7,6 +7,9 @@
      gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
      xsph.h         drift beside the velocity   pair_power.h   the books
 
+   Kick-drift-kick and leap-frog sum rates and forces in sweeps of their own (choice `part`): with the same bits as both
+   at once, of which each would use a half.
+
    The same text is compiled with the choices as constants (a line of SPH_FAST_FORCES each) and with choices read at
    run time (two general forms: without solids and with them). Arrays: none but the state's acc, drho, xsph and the
    powers of the books. Cost: one sweep a force evaluation. */
@@ -103,14 +106,18 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     if (!geometry(o, &p))
         return;
     kernel(o, &p);
-    sph_continuity(c, o->f, o->home, &p, s);
+    if (sph_takes_rates(c))
+        sph_continuity(c, o->f, o->home, &p, s);
     sph_stress_force(c, o->f, o->home, o->solid, o->stress, o->smoothed, &p, s);
-    sph_pressure_force(c, o->f, o->home, &p);
-    sph_corrected_pressure(c, o->home, o->gradient, o->corrected, &p, s);
-    sph_contact(c, o->f, o->home, &p, s);
+    if (sph_takes_forces(c)) {
+        sph_pressure_force(c, o->f, o->home, &p);
+        sph_corrected_pressure(c, o->home, o->gradient, o->corrected, &p, s);
+        sph_contact(c, o->f, o->home, &p, s);
+    }
     sph_inverse_distance(c, o->f, o->home, &p);
     sph_viscosity(c, o->f, o->home, o->mirror, &p, s);
-    momentum(c, &p, s);
+    if (sph_takes_forces(c))
+        momentum(c, &p, s);
     sph_diffusion(c, o->f, o->home, &p, s);
     sph_xsph(c, o->home, &p, s);
     sph_pair_power(c, o->home, &p, s);
@@ -132,9 +139,10 @@ SPH_INLINE uint32_t book_sums(const sph_choice *c, bool wall)
 /* the sums that these choices take */
 SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
 {
-    return SUM_MASK(DRHO) | SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_SOLID && c->solid ? SUM_MASK(GRADIENT) : 0) |
-           (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
-           (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) : 0);
+    const uint32_t rates = SUM_MASK(DRHO) | (SPH_WITH_SOLID && c->solid ? SUM_MASK(GRADIENT) : 0);
+    const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
+                            (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) : 0);
+    return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
 }
 
 SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h,
@@ -148,7 +156,7 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
     o.gradient = &gradient;
     if (SPH_HAS_FLUID_GRADIENT && c->gradient) {
         o.corrected = sph_columns_of(sim, t, SPH_COLUMN_gradient);
-        gradient = sph_spread_gradient(sim, t, h);
+        gradient = sph_spread_gradient(c, sim, t, h);
     }
     sph_stress_home solid;
     if (SPH_WITH_SOLID && c->solid) {
@@ -236,6 +244,48 @@ SPH_APART void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *
     X(s_w2_r, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .repulsion = 4)                  \
     X(s_w2_t, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .total = 1)
 
+/* rates and forces apart: kick-drift-kick and leap-frog */
+#define SPH_FAST_PARTS(X)                                                                                          \
+    X(r_w2, .kernel = SPH_WENDLAND_C2, .part = SPH_PART_RATES)                                                     \
+    X(r_w2_w, .kernel = SPH_WENDLAND_C2, .wall = 1, .part = SPH_PART_RATES)                                        \
+    X(r_w2_h, .kernel = SPH_WENDLAND_C2, .diffusion = SPH_HYDROSTATIC, .part = SPH_PART_RATES)                     \
+    X(r_w2_hw, .kernel = SPH_WENDLAND_C2, .diffusion = SPH_HYDROSTATIC, .wall = 1, .part = SPH_PART_RATES)         \
+    X(r_cubic, .kernel = SPH_CUBIC, .part = SPH_PART_RATES)                                                        \
+    X(f_w2, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .part = SPH_PART_FORCES)                       \
+    X(f_w2_w, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = 1, .part = SPH_PART_FORCES)          \
+    X(f_w2_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1,   \
+      .part = SPH_PART_FORCES)                                                                                     \
+    X(f_w2_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1,  \
+      .wall = 1, .part = SPH_PART_FORCES)                                                                          \
+    X(f_cubic, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .part = SPH_PART_FORCES)
+#define SPH_FAST_CORRECTED_PARTS(X)                                                                                \
+    X(r_c, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .part = SPH_PART_RATES)                           \
+    X(r_c_w, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .wall = 1, .part = SPH_PART_RATES)              \
+    X(r_c_h, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .diffusion = SPH_HYDROSTATIC,                   \
+      .part = SPH_PART_RATES)                                                                                      \
+    X(r_c_hw, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .diffusion = SPH_HYDROSTATIC, .wall = 1,       \
+      .part = SPH_PART_RATES)                                                                                      \
+    X(f_c, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                      \
+      .part = SPH_PART_FORCES)                                                                                     \
+    X(f_c_w, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK, .wall = 1,         \
+      .part = SPH_PART_FORCES)                                                                                     \
+    X(f_c_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                   \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .part = SPH_PART_FORCES)                                           \
+    X(f_c_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1, .part = SPH_PART_FORCES)
+#define SPH_FAST_SOLID_PARTS(X)                                                                                    \
+    X(r_s_cubic, .kernel = SPH_CUBIC, .solid = 1, .part = SPH_PART_RATES)                                          \
+    X(r_s_w2, .kernel = SPH_WENDLAND_C2, .solid = 1, .part = SPH_PART_RATES)                                       \
+    X(r_s_w2_t, .kernel = SPH_WENDLAND_C2, .solid = 1, .total = 1, .part = SPH_PART_RATES)                         \
+    X(f_s_cubic, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1, .part = SPH_PART_FORCES)            \
+    X(f_s_cubic_r, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1, .repulsion = 4,                   \
+      .part = SPH_PART_FORCES)                                                                                     \
+    X(f_s_w2, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .part = SPH_PART_FORCES)         \
+    X(f_s_w2_r, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .repulsion = 4,                \
+      .part = SPH_PART_FORCES)                                                                                     \
+    X(f_s_w2_t, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .total = 1,                    \
+      .part = SPH_PART_FORCES)
+
 #define SPH_FAST_FN(name, ...)                                                                                     \
     SPH_APART void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)                           \
     {                                                                                                              \
@@ -256,6 +306,15 @@ SPH_FAST_CORRECTED(SPH_FAST_FN)
 #if SPH_WITH_FAST_PATHS && SPH_WITH_SOLID
 SPH_FAST_SOLIDS(SPH_FAST_FN)
 #endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST
+SPH_FAST_PARTS(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_WITH_BONET_LOK
+SPH_FAST_CORRECTED_PARTS(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_WITH_SOLID
+SPH_FAST_SOLID_PARTS(SPH_FAST_FN)
+#endif
 static const struct {
     sph_choice c;
     fast_path *run;
@@ -268,6 +327,15 @@ static const struct {
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_BONET_LOK
     SPH_FAST_CORRECTED(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST
+    SPH_FAST_PARTS(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_WITH_BONET_LOK
+    SPH_FAST_CORRECTED_PARTS(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_WITH_SOLID
+    SPH_FAST_SOLID_PARTS(SPH_FAST_ROW)
 #endif
     {{0}, NULL}};
 
@@ -288,19 +356,30 @@ static fast_path *fast_path_of(const sph_choice *c)
     return fast_paths[k].run;
 }
 
-/* the choices of a scene, of bodies or of ghosts */
+/* The choices of a scene, of bodies or of ghosts. Rates ask for no viscosity and keep no books; forces for nothing that
+   makes rates, but for what is on the books. */
 static sph_choice choice_of(const sph_sim *sim, bool wall)
 {
     const sph_config *c = &sim->cfg;
-    const bool hat = sph_smooths_strain(c), repels = sph_repels(c);
-    return (sph_choice){.kernel = (uint8_t)c->kernel,       .scheme = (uint8_t)c->scheme,
-                        .viscosity = (uint8_t)c->viscosity, .diffusion = (uint8_t)c->diffusion,
-                        .gradient = (uint8_t)c->gradient,   .wall = wall,
-                        .beta = c->beta != 0,               .xsph = sph_uses_xsph(c) && !hat,
-                        .books = sph_keeps_books(c),        .solid = sph_has_solids(c),
-                        .total = sph_is_total(c),           .hat = hat,
-                        .summed = sph_sums_density(c),      .loses = sim->fac.loses,
-                        .repulsion = (uint8_t)(repels ? c->stress_exponent : 0)};
+    const bool rates = sph_sums_rates(sim), forces = sph_sums_forces(sim), books = forces && sph_keeps_books(c);
+    const bool hat = sph_smooths_strain(c), repels = forces && sph_repels(c), xsph = sph_uses_xsph(c) && !hat;
+    const uint32_t part = rates && forces ? SPH_PART_BOTH : rates ? SPH_PART_RATES : SPH_PART_FORCES;
+    return (sph_choice){.kernel = (uint8_t)c->kernel,
+                        .scheme = (uint8_t)c->scheme,
+                        .viscosity = (uint8_t)(forces ? c->viscosity : SPH_INVISCID),
+                        .diffusion = (uint8_t)(rates || books ? c->diffusion : SPH_NO_DIFFUSION),
+                        .gradient = (uint8_t)c->gradient,
+                        .wall = wall,
+                        .beta = forces && c->beta != 0,
+                        .xsph = forces && xsph,
+                        .books = books,
+                        .solid = sph_has_solids(c),
+                        .total = sph_is_total(c),
+                        .hat = (rates || (books && sim->fac.loses)) && hat,
+                        .summed = sph_sums_density(c),
+                        .loses = books && sim->fac.loses,
+                        .repulsion = (uint8_t)(repels ? c->stress_exponent : 0),
+                        .part = (uint8_t)part};
 }
 
 /* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over bodies only; its acceleration is
@@ -493,16 +572,24 @@ static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 /* ---- the pass ---- */
 
+/* the column sets that these choices read */
+static uint32_t columns_of(const sph_choice *c)
+{
+    const bool forces = sph_takes_forces(c), gradient = c->gradient && (forces || !SPH_IS(c->gradient, BONET_LOK));
+    return (SPH_HAS_LAYERED_WALLS && sph_viscous(c->viscosity) ? 1u << SPH_COLUMN_mirror : 0) |
+           (c->solid && forces ? 1u << SPH_COLUMN_stress : 0) | (c->total ? 1u << SPH_COLUMN_reference : 0) |
+           (c->hat ? 1u << SPH_COLUMN_smoothed : 0) | (gradient ? 1u << SPH_COLUMN_gradient : 0);
+}
+
 static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_choice c = choice_of(sim, true);
+    const bool points = sph_takes_forces(&c);
     const sph_sweep w = {is_force_home,
-                         SPH_BODIES | 1u << SPH_ROLE_GHOST | 1u << SPH_ROLE_FORCE_WALL,
-                         sums_of(&c, true) | (c.books || sim->has_force_wall ? SUM_MASK(BOUNDARY) : 0),
+                         SPH_BODIES | 1u << SPH_ROLE_GHOST | (points ? 1u << SPH_ROLE_FORCE_WALL : 0),
+                         sums_of(&c, true) | (points && (c.books || sim->has_force_wall) ? SUM_MASK(BOUNDARY) : 0),
                          sph_needs_inv_rho(c.scheme, c.diffusion),
-                         (SPH_HAS_LAYERED_WALLS && sph_viscous(c.viscosity) ? 1u << SPH_COLUMN_mirror : 0) |
-                             (c.solid ? 1u << SPH_COLUMN_stress : 0) | (c.total ? 1u << SPH_COLUMN_reference : 0) |
-                             (c.hat ? 1u << SPH_COLUMN_smoothed : 0) | (c.gradient ? 1u << SPH_COLUMN_gradient : 0),
+                         columns_of(&c),
                          force_tile,
                          force_finish};
     sph_sweep_chunk(sim, &w, chunk, t);

@@ -21,7 +21,8 @@ typedef struct sph_gradient_home {
     vreal n[SPH_NT], t[SPH_NT], share;
 } sph_gradient_home;
 
-SPH_INLINE sph_gradient_home sph_spread_gradient(const sph_sim *sim, const sph_thread *t, uint32_t h)
+SPH_INLINE sph_gradient_home sph_spread_gradient(const sph_choice *what, const sph_sim *sim, const sph_thread *t,
+                                                 uint32_t h)
 {
     const sph_real *const own = sph_home_columns_of(sim, t, SPH_COLUMN_gradient);
     const sph_config *const c = &sim->cfg;
@@ -32,7 +33,7 @@ SPH_INLINE sph_gradient_home sph_spread_gradient(const sph_sim *sim, const sph_t
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_NT; k++) {
         o.n[k] = v_set(!ghost ? sim->gradient[k][t->home_at[h]] : k < SPH_DIM ? plain : 0);
-        o.t[k] = v_set(ghost ? 0 : own[k * SPH_HOME_ROOM + h]);
+        o.t[k] = v_set(ghost || !sph_takes_forces(what) ? 0 : own[k * SPH_HOME_ROOM + h]);
     }
     return o;
 }

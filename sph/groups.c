@@ -2,9 +2,9 @@
 /* groups.c: walls that move or vanish, and held sets that move or are let go: where their group is at a time is what
    its host says.
 
-   Adami's walls want their acceleration too. It is the mean of the time that sound takes through a support, from half of
-   that before to half of it after: so a velocity that jumps (a table's does, at its rows) gives the same impulse however
-   a step is cut, and a smooth one the same force, to second order in that time. */
+   Adami's walls want their acceleration too. It is the mean of the time that sound takes through a support, from half
+   of that before to half of it after: so a velocity that jumps (a table's does, at its rows) gives the same impulse
+   however a step is cut, and a smooth one the same force, to second order in that time. */
 #include "locals.h"
 
 #if SPH_HAS_GROUPS

@@ -12,6 +12,20 @@
 #include "passes.h"
 #include "runge_kutta.h"
 
+/* ---- what stages do at their sorts ---- */
+
+/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle. Kick-drift-kick and leap-frog take
+   fields to the middle of the step by the rates of the last middle: to second order there, enough for rates that
+   depend on them. Leap-frog's kick and bend follow from the last step (move.c). */
+static const sph_stage stays = {0, 0, 0, 0, 0, false, true, false, false};
+static const sph_stage begins = {0, 0, 0, 0, 1, false, true, false, false};
+static const sph_stage falls_back = {0, 0, 0, 0, 1, false, true, true, false}; /* leap-frog, before first forces */
+static const sph_stage predicts = {1, 0.5, 1, 1, 1, true, true, false, false}; /* Gray 2001 eqs 2.26, 2.27, 2.29 */
+static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0.5, 1, true, true, false, true};
+static const sph_stage leaps = {1, 0, 0, 0.5, 1, false, true, true, true};
+/* Wickramarachchi 3.85, mean of 3.91 */
+static const sph_stage half_way = {0.5, 0, 0.5, 0.5, 0.5, false, false, false, false};
+
 /* ---- stages: passes that only say where the next sort goes ---- */
 
 static uint32_t spare(const sph_sim *sim, uint32_t a, uint32_t b)
@@ -42,8 +56,10 @@ sph_status sph_prepare(sph_sim *sim, const sph_integrator *g)
 
 static sph_status begin(sph_sim *sim)
 {
-    const sph_integrator *g = sim->integrator;
-    sph_begin_sort(sim, sim->cur, spare(sim, sim->cur, sim->cur), sim->now.count, sim->table_valid, g->first);
+    const sph_stage *first = sim->integrator->first;
+    if (first == &begins && SPH_IS(sim->cfg.integrator, LEAP_FROG))
+        first = &falls_back;
+    sph_begin_sort(sim, sim->cur, spare(sim, sim->cur, sim->cur), sim->now.count, sim->table_valid, first);
     return SPH_OK;
 }
 static const sph_pass pass_begin = {"begin", NULL, NULL, begin, NULL};
@@ -202,16 +218,6 @@ static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITI
 static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance)};
-
-/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle. Kick-drift-kick and leap-frog take
-   fields to the middle of the step by the rates of the last middle: to second order there, enough for rates that
-   depend on them. Leap-frog's kick and bend follow from the last step (move.c). */
-static const sph_stage stays = {0, 0, 0, 0, 0, false, true, false, false};
-static const sph_stage begins = {0, 0, 0, 0, 1, false, true, true, false};
-static const sph_stage predicts = {1, 0.5, 1, 1, 1, true, true, false, false}; /* Gray 2001 eqs 2.26, 2.27, 2.29 */
-static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0.5, 1, true, true, false, true};
-static const sph_stage leaps = {1, 0, 0, 0.5, 1, false, true, true, true};
-static const sph_stage half_way = {0.5, 0, 0.5, 0.5, 0.5, false, false, false, false}; /* Wickramarachchi 3.85, mean of 3.91 */
 
 /* ---- the table ---- */
 

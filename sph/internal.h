@@ -414,8 +414,19 @@ SPH_INLINE uint32_t sph_held(const sph_sim *sim, const sph_set *s)
 /* whether sums are of rates in the middle of the step; whether they are of rates, of forces: of both, where an
    integrator has one sweep for them */
 SPH_INLINE bool sph_in_middle(const sph_sim *sim) { return SPH_HAS_RATES_FIRST && sim->middle; }
-SPH_INLINE bool sph_sums_rates(const sph_sim *sim) { return !SPH_HAS_RATES_FIRST || sim->middle || !sim->stage->middle; }
+SPH_INLINE bool sph_sums_rates(const sph_sim *sim)
+{
+    return !SPH_HAS_RATES_FIRST || sim->middle || !sim->stage->middle;
+}
 SPH_INLINE bool sph_sums_forces(const sph_sim *sim) { return !sph_in_middle(sim); }
+
+/* a step's work from the powers of the step before and of this: by the trapezoidal rule, where a step's are those of
+   its end; Runge-Kutta's are those of its middle */
+SPH_INLINE double sph_work_of(const sph_sim *sim, double before, double power)
+{
+    const bool middle = SPH_HAS_RUNGE_KUTTA && sim->stage->at < 1;
+    return middle ? sim->dt * power : 0.5 * sim->dt * (before + power);
+}
 
 /* displacement of a group, quanta; and how far it goes in this step until the stage's moment */
 SPH_INLINE sph_pos sph_wall_moved(const sph_sim *sim, const sph_set *s, uint32_t axis)

@@ -98,7 +98,7 @@ SPH_INLINE void sph_kick(const sph_sim *sim, sph_span s, sph_real times)
 }
 
 /* Kick-drift-kick and leap-frog (Powell 2012 algorithm 1.1), between the rates of a step's middle and the forces at its
-   end: density goes a whole step from the step's beginning, and velocities, those of the middle so far, are foreseen. */
+   end: density goes a whole step from the step's beginning, and velocities, those of the middle so far, foreseen. */
 SPH_INLINE void sph_to_the_end(const sph_sim *sim, sph_span s)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];

@@ -14,7 +14,7 @@ sph_move sph_stage_move(const sph_sim *sim)
     sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping, sph_rounding(sim)};
     if (sph_foresees(&sim->cfg))
         m.foresight = g->rate * foresight(dt, (sph_real)sim->now.dt_last);
-    if (g->resumes && SPH_IS(sim->cfg.integrator, LEAP_FROG)) {
+    if (SPH_HAS_RATES_FIRST && g->resumes) {
         m.kick = (sph_real)((sim->dt - sim->now.dt_last) * 0.5);
         m.bend = dt * m.kick;
     }

@@ -66,7 +66,7 @@ sph_status sph_add_powers(sph_sim *sim)
         return SPH_OK;
     for (uint32_t k = 0; k < SPH_POWERS; k++) {
         n->power[k] = sph_sum_rows(sim, k);
-        n->work[k] += 0.5 * sim->dt * (sim->now.power[k] + n->power[k]);
+        n->work[k] += sph_work_of(sim, sim->now.power[k], n->power[k]);
     }
     n->work[POWER_WALL] += sph_sum_rows(sim, JUMP_HELD);
     n->carried_off += sph_sum_rows(sim, JUMP_REMOVED);

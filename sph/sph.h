@@ -34,7 +34,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 4u /* 1: without solids; 3: with fewer books */
+#define SPH_VERSION 4u /* 1: without solids; 2: without sponges; 3: before `rise`, with fewer books */
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
@@ -171,11 +171,14 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
    1)/2 reals a particle; where neighbours do not span space the plain gradient is taken (gradient.c). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
-/* Integrators. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a step. KICK_DRIFT_KICK:
-   velocity Verlet; density drifts with the half-step velocity, so a step takes two sweeps (rates, forces). LEAP_FROG:
-   Powell 2012 algorithm 1.1, rates then forces (two sweeps), velocities half a step ahead. RUNGE_KUTTA:
-   Wickramarachchi 3.85-3.87;
-   RUNGE_KUTTA_MOMENTUM: his 3.91-3.92 (algebraically the same midpoint rule, rounded differently). */
+/* Integrators. All are of second order in time in every field, with walls and forces that change with time and steps
+   that change (but for XSPH's drift: first order). PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a
+   step; in fluids the predicted density foresees how its rate rises (kick.h): it stands a Courant number of 0.5.
+   KICK_DRIFT_KICK: velocity Verlet; density and stress go by the rates of the step's middle, so a step takes two sweeps
+   (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1, the same with velocities that are kept half a step ahead;
+   where steps change they are kicked by the mean of two. After a change of gravity, of the body force's function, of
+   walls, or sph_apply_field it starts anew. RUNGE_KUTTA: Wickramarachchi 3.85-3.87; RUNGE_KUTTA_MOMENTUM: his 3.91-3.92
+   (algebraically the same midpoint rule, rounded differently). */
 enum {
     SPH_PREDICTOR_CORRECTOR,
     SPH_KICK_DRIFT_KICK,
@@ -351,7 +354,8 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *fluid, uint32_t *set); /
 
 /* Displacement (m) and velocity (m/s) at time t (s) of something that moves as it is told: a wall, a held set. Must
    depend on its arguments only. Finite, within two domain lengths, and less than one from step to step; otherwise the
-   step fails (NOT_FINITE, MOVED_TOO_FAR). */
+   step fails (NOT_FINITE, MOVED_TOO_FAR). Beside Adami's walls it is also asked for the velocity at times h/c0 before
+   (not before 0) and after: their acceleration is the mean between, so that a velocity may jump. */
 typedef void (*sph_motion)(void *ctx, double t, double *displacement, double *velocity);
 
 /* A motion given as a table, linear between rows; before the first and after the last row there is rest. Pass
@@ -468,7 +472,7 @@ typedef struct sph_shape {
 sph_status sph_add_shape(sph_sim *sim, uint32_t set, const sph_shape *shape);
 
 /* Sets velocity and density of a particle between steps by a function of its position: an initial field. All or
-   nothing. */
+   nothing. Velocities are those of the present time, also with the leap-frog. */
 typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho);
 #define sph_apply_field SPH_NAME(apply_field)
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx);

@@ -50,7 +50,7 @@ SPH_INLINE sph_stress_home sph_spread_stress(const sph_choice *c, const sph_stre
     sph_stress_home o;
     SPH_UNROLL_MANY
     for (int k = 0; k < SPH_NL; k++)
-        o.t[k] = v_set(st->t[k][h]);
+        o.t[k] = v_set(sph_takes_forces(c) ? st->t[k][h] : 0);
     SPH_UNROLL
     for (int k = 0; k < SPH_NT; k++)
         o.r[k] = v_set(c->repulsion ? st->r[k][h] : 0);
@@ -118,6 +118,20 @@ SPH_INLINE void sph_repulsion_power(const sph_choice *c, const sph_home *o, cons
     s[SUM_IN_BONDS] = s[SUM_IN_BONDS] + sph_pair_share(c, o, p, r, sph_dot(r, p->dv));
 }
 
+/* component k of the force of T_i + T_j, which w weighs */
+SPH_INLINE void sph_stress_push(const sph_choice *c, const sph_stress_home *h, const sph_stress_tile *t,
+                                sph_near *p, int k, vreal fn, vreal w, vreal *s)
+{
+    vreal a = v_set(0);
+    SPH_UNROLL
+    for (int l = 0; l < SPH_DIM; l++) {
+        const vreal sum = sph_stress_sum(c, h, t, p, k, l, fn);
+        a = l ? a + sum * p->kx[l] : sum * p->kx[l];
+    }
+    p->push[k] = a * w;
+    s[SUM_ACC + k] = s[SUM_ACC + k] + p->push[k];
+}
+
 SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, const sph_home *o, const sph_stress_home *h,
                                  const sph_stress_tile *t, const sph_real *u, sph_near *p, vreal *s)
 {
@@ -130,14 +144,10 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
         fn = sph_small_power(k_value(c->kernel, p->q) * f->inv_wdx, c->repulsion);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
-        vreal a = v_set(0);
-        SPH_UNROLL
-        for (int l = 0; l < SPH_DIM; l++) {
-            const vreal sum = sph_stress_sum(c, h, t, p, k, l, fn);
-            a = l ? a + sum * p->kx[l] : sum * p->kx[l];
-        }
-        s[SUM_ACC + k] = s[SUM_ACC + k] + a * w;
-        p->push[k] = a * w;
+        if (sph_takes_forces(c))
+            sph_stress_push(c, h, t, p, k, fn, w, s);
+        if (!sph_takes_rates(c) && !(SPH_WITH_BOOKS && c->books && c->loses))
+            continue;
         vreal d = p->dv[k];
         if (c->hat)
             d = h->u[k] - (p->wall ? v_load(p->tile->v[k] + p->j) : v_load(u + (uint32_t)k * SPH_TILE_ROOM + p->j));

@@ -31,6 +31,9 @@ enum {
 #define SUM_MASK(name) SPH_SUM_MASK(SUM_##name, SUM_##name##_LAST + 1 - SUM_##name)
 _Static_assert(SUM_ROWS <= SPH_SUMS, "SPH_SUMS is too small");
 
+/* what a sweep sums: rates and forces, or one of them, where an integrator takes them apart */
+enum { SPH_PART_BOTH, SPH_PART_RATES, SPH_PART_FORCES };
+
 /* What the pair formulas depend on: bytes, so that two of them can be compared as a whole. */
 typedef struct sph_choice {
     uint8_t kernel, scheme, viscosity, diffusion, gradient;
@@ -40,9 +43,11 @@ typedef struct sph_choice {
     uint8_t repulsion;         /* exponent of the artificial stress, 0: none */
     uint8_t loses;             /* with books: the form does not conserve energy, so what it loses is summed too */
     uint8_t summed;            /* density by summation */
-    uint8_t spare;
+    uint8_t part;              /* SPH_PART_... */
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 16, "sph_choice is compared as two words (forces.c)");
+SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }
+SPH_INLINE bool sph_takes_forces(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_RATES; }
 /* whether the rate of density is summed without rho_i, by which it is multiplied in the end */
 SPH_INLINE bool sph_rate_by_density(uint32_t scheme, uint32_t gradient)
 {

@@ -16,12 +16,14 @@
 typedef struct tile_choice {
     uint32_t eos;
     bool ratio, floor, inv_rho; /* p/rho^2 instead of p; p >= 0; whether 1/rho is asked for */
+    bool press;                 /* whether pressures are */
     bool wall, is_image;        /* velocities of a wall's group; seen through an image */
 } tile_choice;
 
-/* In the middle of a step, at whose end the particles stand, they are seen half a step's way back. A pair that is within
-   a support there but not at the end may be missed, if it stands more than a cell apart: that is within dt |v_ij|/2 of
-   the kernel's edge, where its slope is of second order or higher in that distance. An image goes the image's way.
+/* In the middle of a step, at whose end the particles stand, they are seen half a step's way back. A pair that is
+   within a support there but not at the end may be missed, if it stands more than a cell apart: that is within dt
+   |v_ij|/2 of the kernel's edge, where its slope is of second order or higher in that distance. An image goes the
+   image's way.
 
    Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by
    the next run or by sph_close_tile. */
@@ -60,38 +62,48 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
                 v_store(t->v[k] + at + j, c.is_image ? v * flip[k] : v);
             }
             const vreal e = v_load(excess + j);
-            const vreal rho = (1 + e) * r0, p = sph_pressure_of(c.eos, c.floor, b, e);
+            const vreal rho = (1 + e) * r0, p = c.press ? sph_pressure_of(c.eos, c.floor, b, e) : v_set(0);
             v_store(t->m + at + j, m);
             v_store(t->rho + at + j, rho);
-            v_store(t->press + at + j, c.ratio ? p / (rho * rho) : p);
+            v_store(t->press + at + j, c.ratio && c.press ? p / (rho * rho) : p);
             if (c.inv_rho)
                 v_store(t->inv_rho + at + j, 1 / rho);
         }
 }
 
+/* standard rates ask for no pressure */
+static bool needs_press(const sph_sim *sim) { return sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD); }
+
 SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
 {
     const sph_config *c = &r->sim->cfg;
     const bool floor = c->pressure_floor && !sph_is_solid(r->set), wall = r->set->role == SPH_ROLE_GHOST;
-    const tile_choice own = {r->set->eos, !sph_weak_scheme(c->scheme),   floor,
-                             inv_rho,     SPH_HAS_LAYERED_WALLS && wall, SPH_HAS_IMAGES && r->im->is_image};
+    const tile_choice own = {r->set->eos,         !sph_weak_scheme(c->scheme),   floor, inv_rho,
+                             needs_press(r->sim), SPH_HAS_LAYERED_WALLS && wall, SPH_HAS_IMAGES && r->im->is_image};
     load_columns(r, t, COPIED, own);
 }
 
 /* Tait's water in a standard scheme, no image: the same text with the choices as constants; a line adds a path */
 #define SPH_FAST_LOADS(X)                                                                                          \
-    X(plain, false, false, false, COPIED)                                                                          \
-    X(plain_homes, false, false, false, COPIED_HOMES)                                                              \
-    X(floor, true, false, false, COPIED)                                                                           \
-    X(floor_homes, true, false, false, COPIED_HOMES)                                                               \
-    X(diffusive, true, true, false, COPIED)                                                                        \
-    X(diffusive_homes, true, true, false, COPIED_HOMES)                                                            \
-    X(wall, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                                           \
-    X(wall_diffusive, true, true, SPH_HAS_LAYERED_WALLS, COPIED)
-#define SPH_FAST_FN(name, floor_, inv_rho_, wall_, copied)                                                         \
+    X(plain, false, false, true, false, COPIED)                                                                    \
+    X(plain_homes, false, false, true, false, COPIED_HOMES)                                                        \
+    X(floor, true, false, true, false, COPIED)                                                                     \
+    X(floor_homes, true, false, true, false, COPIED_HOMES)                                                         \
+    X(diffusive, true, true, true, false, COPIED)                                                                  \
+    X(diffusive_homes, true, true, true, false, COPIED_HOMES)                                                      \
+    X(wall, false, false, true, SPH_HAS_LAYERED_WALLS, COPIED)                                                     \
+    X(wall_floor, true, false, true, SPH_HAS_LAYERED_WALLS, COPIED)                                                \
+    X(wall_diffusive, true, true, true, SPH_HAS_LAYERED_WALLS, COPIED)                                             \
+    X(rates, false, false, false, false, COPIED)                                                                   \
+    X(rates_homes, false, false, false, false, COPIED_HOMES)                                                       \
+    X(rates_diffusive, false, true, false, false, COPIED)                                                          \
+    X(rates_diffusive_homes, false, true, false, false, COPIED_HOMES)                                              \
+    X(rates_wall, false, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                              \
+    X(rates_wall_diffusive, false, true, false, SPH_HAS_LAYERED_WALLS, COPIED)
+#define SPH_FAST_FN(name, floor_, inv_rho_, press_, wall_, copied)                                                 \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t)                                               \
     {                                                                                                              \
-        load_columns(r, t, copied, (tile_choice){SPH_TAIT, true, floor_, inv_rho_, wall_, false});                 \
+        load_columns(r, t, copied, (tile_choice){SPH_TAIT, true, floor_, inv_rho_, press_, wall_, false});         \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
 #undef SPH_FAST_FN
@@ -99,14 +111,15 @@ SPH_FAST_LOADS(SPH_FAST_FN)
 void sph_load_tile(const sph_candidates *r, sph_tile *t, bool inv_rho, bool homes)
 {
     const sph_config *c = &r->sim->cfg;
-    const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST;
-    const bool floor = c->pressure_floor && !sph_is_solid(r->set);
+    const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, press = needs_press(r->sim);
+    const bool floor = press && c->pressure_floor && !sph_is_solid(r->set);
     const uint32_t copied = homes ? COPIED_HOMES : COPIED;
     const bool water = SPH_IS(r->set->eos, TAIT) && SPH_IS(c->scheme, STANDARD);
-    const bool usual = SPH_WITH_FAST_PATHS && water && !r->im->is_image;
+    const bool usual = SPH_WITH_FAST_PATHS && (water || !press) && !r->im->is_image;
     (void)copied;
-#define SPH_FAST_TRY(name, floor_, inv_rho_, wall_, copied_)                                                       \
-    if (usual && floor == (floor_) && inv_rho == (inv_rho_) && wall == (wall_) && copied == (copied_)) {           \
+#define SPH_FAST_TRY(name, floor_, inv_rho_, press_, wall_, copied_)                                               \
+    if (usual && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) && wall == (wall_) &&             \
+        copied == (copied_)) {                                                                                     \
         load_##name(r, t);                                                                                         \
         return;                                                                                                    \
     }

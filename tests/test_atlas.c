@@ -36,9 +36,9 @@ static void steps_stand_as_long_as_theory_says(void **state)
     }
 }
 
-/* an oscillator of frequency w: without viscosity what keeps one evaluation damps it by 1 - (w dt)^4/8 where it foresees
-   the rate of density, up to w dt = 0.754, and else amplifies it at any step by 1 + (w dt)^4/4; so does the midpoint
-   rule by 1 + (w dt)^4/8; the others stand w dt = 2 */
+/* an oscillator of frequency w: without viscosity what keeps one evaluation damps it by 1 - (w dt)^4/8 where it
+   foresees the rate of density, up to w dt = 0.754, and else amplifies it at any step by 1 + (w dt)^4/4; so does the
+   midpoint rule by 1 + (w dt)^4/8; the others stand w dt = 2 */
 static void factors_are_those_of_an_oscillator(void **state)
 {
     theory_step t = {.medium = THEORY_WATER, .integrator = SPH_KICK_DRIFT_KICK, .kernel = SPH_CUBIC, .n = 12, .h = 1.2,

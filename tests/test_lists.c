@@ -21,14 +21,11 @@ static struct {
 
 static sph_real number_of(uint32_t id, uint32_t k) { return (sph_real)(1 + id % 7 + 0.25 * k); }
 
-/* rate of a value of particle id: constant, or -decay value; where an integrator asks for rates in the step's middle,
-   half a step on */
+/* rate of a value of particle id: constant, or -decay value: fields stand where the rates are asked for, in the step's
+   middle too */
 static sph_real rate_of(sph_real value, uint32_t id, uint32_t k)
 {
-    const sph_real c = (sph_real)given.decay;
-    if (!(given.decay > 0))
-        return number_of(id, k);
-    return given.sim->stage->middle ? -c * (value - (sph_real)(0.5 * given.sim->dt) * c * value) : -c * value;
+    return given.decay > 0 ? -(sph_real)given.decay * value : number_of(id, k);
 }
 
 static void give_rates(void *ctx, uint64_t step, const char *pass, uint64_t hash)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* test_order.c: the order in time of every integrator, in a shear flow: places, velocities, densities, stresses, by
-   halving the step three times. With viscosities, schemes, forms of solids, corrected gradients, walls that move, forces
-   that change with time, and steps of changing length. */
+   halving the step three times. With viscosities, schemes, forms of solids, corrected gradients, walls that move,
+   forces that change with time, and steps of changing length. */
 #include "testing.h"
 
 #define PI 3.14159265358979323846

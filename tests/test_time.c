@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_time.c: the order of every integrator by halving the step, the speed of sound, and the limits of the step. */
+/* test_time.c: the speed of sound, the limits of the step, falling and bouncing bodies, steps that change, fields that
+   are given in mid-run. The order of the integrators: test_order.c. */
 #include "testing.h"
 
 #define N 40u
@@ -30,43 +31,6 @@ static sph_sim *sound(uint32_t integrator, uint32_t eos, double dt)
     must(sim, sph_apply_field(sim, set, wave, NULL));
     return sim;
 }
-
-#if SPH_DOUBLE
-#define KEPT 640u
-/* displacements along x after `steps` steps of dt */
-static void run(uint32_t integrator, double dt, int steps, double *x)
-{
-    sph_sim *sim = sound(integrator, SPH_TAIT, dt);
-    sph_particle p;
-    for (int k = 0; k < steps; k++)
-        must(sim, sph_step(sim));
-    assert_true(sph_count(sim) <= KEPT);
-    for (uint32_t i = 0; i < sph_count(sim); i++) {
-        assert_int_equal(sph_get(sim, i, &p), SPH_OK);
-        x[p.id] = p.x[0];
-    }
-    assert_int_equal(free_sims(NULL), 0);
-}
-
-static void every_integrator_is_of_second_order(void **state)
-{
-    static double x[3][KEPT];
-    (void)state;
-    for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
-        double e1 = 0, e2 = 0;
-        for (int k = 0; k < 3; k++)
-            run(i, 1e-3 / (1 << k), 40 << k, x[k]);
-        for (uint32_t j = 0; j < N; j++) {
-            e1 = fmax(e1, fabs(x[0][j] - x[1][j]));
-            e2 = fmax(e2, fabs(x[1][j] - x[2][j]));
-        }
-        const double order = log2(e1 / e2);
-        print_message("integrator %u: order %.2f, change %.1e then %.1e\n", i, order, e1, e2);
-        assert_true(e2 > 1e-13);
-        assert_true(order > 1.8 && order < 2.6);
-    }
-}
-#endif
 
 static double amplitude(const sph_sim *sim)
 {
@@ -182,15 +146,122 @@ static void a_falling_body_falls_exactly(void **state)
     }
 }
 
+/* a single particle in gravity g; its image behind a mirror face pushes next to nothing */
+static sph_config falling_config(uint32_t integrator, double dt, double g, uint32_t face)
+{
+    sph_config c = open_config(1, DX);
+    c.lo[0] = 0;
+    c.hi[0] = 8;
+    c.face[0][0] = face;
+    c.sound_speed = 1e-3;
+    c.gravity[0] = -g;
+    c.integrator = integrator;
+    c.dt = dt;
+    return c;
+}
+
+static sph_sim *falling(const sph_config *c, double x0, double v0)
+{
+    uint32_t set;
+    double x[SPH_DIM] = {x0}, v[SPH_DIM] = {v0};
+    sph_sim *sim = new_sim(c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    must(sim, sph_add_particle(sim, set, x, v, 0, NULL));
+    return sim;
+}
+
+/* What is below a mirror face is the mirror image of what is above, gravity too: a bounce turns a velocity and changes
+   it by no more than the pull of a step, up or down, and on the average not at all */
+static void a_bounce_keeps_the_speed(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
+        const double dt = 1.37e-3, g = 9.81, top = 0.5;
+        const sph_config c = falling_config(i, dt, g, SPH_SYMMETRY);
+        sph_sim *sim = falling(&c, top, 0);
+        sph_step_info info;
+        double highest = 0;
+        do {
+            must(sim, sph_step(sim));
+            sph_get_step(sim, &info);
+            if (info.reflected == 20)
+                highest = fmax(highest, by_id(sim, 0).x[0]);
+        } while (info.reflected < 21);
+        print_message("integrator %u: after 20 bounces %.4f of the height\n", i, highest / top);
+        close_to(highest / top, 1, 0.02);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+/* free fall, 0.5 s with steps of 0.01 s, then 0.5 s with steps of 1e-4 s: exact but for rounding */
+static void steps_that_change_fall_exactly(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
+        const double g = 9.81, v0 = 5;
+        sph_config c = falling_config(i, 0.01, g, SPH_OPEN);
+        sph_sim *sim = falling(&c, 1, v0);
+        for (int k = 0; k < 50; k++)
+            must(sim, sph_step(sim));
+        c.dt = 1e-4;
+        must(sim, sph_reconfigure(sim, &c));
+        for (int k = 0; k < 5000; k++)
+            must(sim, sph_step(sim));
+        const double t = sph_time(sim), rounding = SPH_DOUBLE ? 1e-10 : 5e-5;
+        close_to(by_id(sim, 0).x[0], 1 + v0 * t - 0.5 * g * t * t, rounding);
+        close_to(by_id(sim, 0).v[0], v0 - g * (t + (i == SPH_LEAP_FROG ? 0.5e-4 : 0)), 20 * rounding);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+static void five(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)ctx, (void)x, (void)rho;
+    v[0] = 5;
+}
+static void same(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)x, (void)rho;
+    *(double *)ctx = v[0];
+}
+
+/* in mid-run, a field of velocities holds at that time, and a new gravity from then on; a field sees the velocities of
+   that time */
+static void what_is_given_in_mid_run_holds_from_then_on(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < SPH_INTEGRATORS; i++)
+        for (int how = 0; how < 2; how++) {
+            const double dt = 0.01, g = 10, rounding = SPH_DOUBLE ? 1e-10 : 1e-5;
+            sph_config c = falling_config(i, dt, g, SPH_OPEN);
+            sph_sim *sim = falling(&c, 4, 0);
+            double seen = 0;
+            for (int k = 0; k < 10; k++)
+                must(sim, sph_step(sim));
+            const double x = by_id(sim, 0).x[0];
+            close_to(x, 4 - 0.05, rounding);
+            must(sim, sph_apply_field(sim, 0, same, &seen));
+            close_to(seen, -1, rounding);
+            if (how == 0)
+                must(sim, sph_apply_field(sim, 0, five, NULL));
+            c.gravity[0] = how == 0 ? -g : g;
+            must(sim, sph_reconfigure(sim, &c));
+            for (int k = 0; k < 10; k++)
+                must(sim, sph_step(sim));
+            close_to(by_id(sim, 0).x[0], how == 0 ? x + 0.5 - 0.05 : x - 0.1 + 0.05, rounding);
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
-#if SPH_DOUBLE
-        subject(every_integrator_is_of_second_order),
-#endif
         subject(sound_travels_at_the_speed_of_the_equation_of_state),
         subject(the_limits_of_the_step_are_the_printed_ones),
         subject(a_falling_body_falls_exactly),
+        subject(a_bounce_keeps_the_speed),
+        subject(steps_that_change_fall_exactly),
+        subject(what_is_given_in_mid_run_holds_from_then_on),
     };
     return run_subjects("time", list);
 }

@@ -8,7 +8,7 @@
 
 #include "host.h"
 
-#define VERSION 3u /* 1 was before solids, 2 before sponges; what is read here is the same in all */
+#define VERSION 4u /* 1 was before solids, 2 before sponges, 3 before `rise`; what is read here is the same in all */
 #define PREAMBLE 32u
 #define HEADER 64u
 #define FIELD 32u

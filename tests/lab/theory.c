@@ -19,8 +19,8 @@
    or, with summed density, x) and v:
      q' = A v,   v' = B q - D v,   D = alpha h c0 d
    and a step, as kick.h and move.c do it, is
-     kick-drift-kick, leap-frog   w = v + dt/2 a_o, q += dt A w, a = B q - D (w + dt/2 a_o), v = w + dt/2 a: both are the
-                                  same
+     kick-drift-kick, leap-frog   w = v + dt/2 a_o, q += dt A w, a = B q - D (w + dt/2 a_o), v = w + dt/2 a;
+                                  both are the same
      predictor-corrector          q_p = q + dt q'_o, v_p = v + dt a_o, rates (q', a) of these, q = q + dt/2 (q' + q'_o),
                                   v alike;
                                   the rates are kept: one evaluation a step. Water: q_p = q + dt (q'_o + e_o), e = (q' -
