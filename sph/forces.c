@@ -94,8 +94,9 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     p.wall = wall;
     p.tile = o->tile;
     p.j = j;
-    p.force = p.gain = v_set(0);
+    p.force = v_set(0);
     p.apart = v_set_int(0);
+    p.gain = v_set(0);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         p.push[k] = v_set(0);
@@ -151,15 +152,17 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         gradient = sph_spread_gradient(sim, t, h);
     }
     sph_stress_home solid;
-    if (SPH_WITH_SOLID && c->solid) {
+    if (SPH_WITH_SOLID) /* a place, whether the scene has it or not */
         o.stress = sph_stress_tile_of(sim, t);
+    if (SPH_WITH_SOLID && c->solid) {
         o.smoothed = c->hat ? sph_smoothed_of(sim, t) : NULL;
         solid = sph_spread_stress(c, sph_stress_homes_of(sim, t), c->hat ? sph_smoothed_homes_of(sim, t) : NULL, h);
         o.solid = &solid;
     }
     sph_reference_home was;
-    if (SPH_HAS_TOTAL && c->solid && c->total) {
+    if (SPH_HAS_TOTAL)
         o.reference = sph_reference_of(sim, t);
+    if (SPH_HAS_TOTAL && c->solid && c->total) {
         was = sph_spread_reference(sph_reference_homes_of(sim, t), h);
         o.was = &was;
     }
@@ -185,18 +188,27 @@ SPH_INLINE void force_general(const sph_choice *c, const sph_sim *sim, sph_threa
     else
         force_home(c, &sim->fac, sim, t, h, false);
 }
+/* whatever does not conserve energy, where that is on the books: in small builds with the others */
+SPH_APART void force_losing(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    sph_choice own = *c;
+    own.loses = own.books = 1;
+    own.solid = SPH_WITH_SOLID && own.solid;
+    force_general(&own, sim, t, h);
+}
 /* the form that covers fluids (in small builds with corrected gradients); corrected gradients; scenes with solids */
 SPH_APART void force_fluid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = own.total = own.hat = own.repulsion = 0;
+    own.loses = SPH_SMALL && own.loses;
     own.gradient = SPH_SMALL ? own.gradient : 0;
     force_general(&own, sim, t, h);
 }
 SPH_APART void force_corrected(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = own.repulsion = 0;
+    own.solid = own.total = own.hat = own.repulsion = own.loses = 0;
     force_general(&own, sim, t, h);
 }
 SPH_APART void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
@@ -204,6 +216,7 @@ SPH_APART void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *
     sph_choice own = *c;
     own.solid = true;
     own.gradient = 0;
+    own.loses = SPH_SMALL && own.loses;
     own.total = SPH_HAS_TOTAL && own.total;
     own.hat = SPH_HAS_HAT && own.hat;
     own.repulsion = SPH_HAS_REPULSION ? own.repulsion : 0;
@@ -299,7 +312,7 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .beta = c->beta != 0,               .xsph = sph_uses_xsph(c) && !hat,
                         .books = sph_keeps_books(c),        .solid = sph_has_solids(c),
                         .total = sph_is_total(c),           .hat = hat,
-                        .summed = sph_sums_density(c),      .loses = sim->fac.loses,
+                        .summed = sph_sums_density(c),      .loses = SPH_WITH_BOOKS && sim->fac.loses,
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0)};
 }
 
@@ -318,6 +331,8 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
             continue;
         if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
             sph_boundary_force(sim, t, h);
+        else if (SPH_WITH_BOOKS && !SPH_SMALL && c.loses)
+            force_losing(&c, sim, t, h);
         else if (SPH_WITH_SOLID && c.solid)
             force_solid(&c, sim, t, h);
         else if (SPH_HAS_FLUID_GRADIENT && !SPH_SMALL && c.gradient)

@@ -621,11 +621,11 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
-    X(carried_off, "J", c->books, "energy that it had")                                                               \
-    X(released, "J", c->books, "elastic energy and that of tension that damage let go")                               \
-    X(put_back_loss, "J", c->books, "lost by particles that were put back off a wall; < 0: gained")                   \
-    X(filtered, "J", c->books, "taken from the internal energy by the Shepard filter")                                \
-    X(damped, "J", c->books, "kinetic energy that damping took, to first order in dt")
+    X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                                               \
+    X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")                               \
+    X(put_back_loss, "J", SPH_WITH_BOOKS && c->books, "lost by particles that were put back off a wall; < 0: gained")                   \
+    X(filtered, "J", SPH_WITH_BOOKS && c->books, "taken from the internal energy by the Shepard filter")                                \
+    X(damped, "J", SPH_WITH_BOOKS && c->books, "kinetic energy that damping took, to first order in dt")
 
 /* Energy is accounted for whole. At every instant
      d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes,
