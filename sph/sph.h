@@ -128,7 +128,8 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
               weak rates beside the standard momentum; the pairs here conserve energy.
    CORRECTED  L = (-sum m_j v_ij (x) K g) M^-1, M = -sum m_j x_ij (x) K g: exact for linear fields, and the force that
               does the same work, T = -sigma M^-T/rho (Bonet & Lok 1999), so momentum and angular momentum stay. Costs
-              a sweep. Where M is nearly singular (lone particles, lines of them) the plain form is taken.
+              a sweep. Where M is nearly singular or small (lone particles, lines of them, particles a
+              support apart) the plain form is taken.
    TOTAL      the same with K the vector in the reference position, for pairs of one body of which neither is fully
               damaged; fixed neighbours, no tensile instability. A particle may go half a domain's length from where
               it began (else MOVED_TOO_FAR). Contact of two bodies: no stress is shared; they push each other along

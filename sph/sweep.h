@@ -38,11 +38,22 @@ SPH_INLINE vreal sph_seen_place(const sph_candidates *r, uint32_t k, vint q)
     const vint seen = q * v_set_int(r->im->sign[k]) + v_set_int(r->im->shift[k] - r->origin[k]);
     return v_from_int(seen) * v_set((sph_real)r->sim->grid.quantum);
 }
-/* component k of a vector, components k, l of a tensor, as the image shows them */
+/* Component k of a vector, components k, l of a tensor as the image shows them: a tensor of geometry (sums of x (x) x)
+   turns as places do; a stress as velocities do, so that behind a no-slip face the shear keeps its sign and what is
+   sheared along the face hangs on to it; a product of the two (sigma M^-T) with its first index as velocities, with its
+   second as places do. */
 SPH_INLINE vreal sph_seen_vector(const sph_candidates *r, uint32_t k, vreal v) { return v * r->im->flip[k]; }
 SPH_INLINE vreal sph_seen_tensor(const sph_candidates *r, uint32_t k, uint32_t l, vreal v)
 {
     return r->im->is_image && k != l ? v * (sph_real)(r->im->sign[k] * r->im->sign[l]) : v;
+}
+SPH_INLINE vreal sph_seen_stress(const sph_candidates *r, uint32_t k, uint32_t l, vreal v)
+{
+    return r->im->is_image && k != l ? v * (r->im->flip[k] * r->im->flip[l]) : v;
+}
+SPH_INLINE vreal sph_seen_mixed(const sph_candidates *r, uint32_t k, uint32_t l, vreal v)
+{
+    return r->im->is_image ? v * (r->im->flip[k] * (sph_real)r->im->sign[l]) : v;
 }
 
 /* A column set: rows of reals that a module's candidates (and, of bodies, homes) bring beside those of every tile.
