@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* diffusion.h: density diffusion (Molteni & Colagrossi 2009; Fourtakas et al. 2019), between bodies only:
-     drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + 0.01 h^2)
+     drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + eta)
+   with eta 0.01 h^2 (1e-6 h^2 beside Morris's viscosity),
    with rho_H the difference that gravity makes between the two places (HYDROSTATIC), or 0. */
 #ifndef SPH_DIFFUSION_H
 #define SPH_DIFFUSION_H

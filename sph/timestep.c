@@ -3,18 +3,27 @@
    sweep (Gray 2001 eq 2.30, Wickramarachchi 2009 eqs 3.88-3.90), unless it is fixed. */
 #include "timestep.h"
 
-/* fastest sound of the scene's sets (m/s) */
-static double fastest_sound(const sph_sim *sim)
+/* sound of a set at rest (m/s) */
+static double sound_of(const sph_sim *sim, const sph_set *set)
 {
-    double c = sim->cfg.sound_speed;
+    const double c2 = set->c0 * set->c0 * (SPH_IS(set->eos, TAIT_GRAY) ? 7 : 1);
+    if (!sph_is_solid(set))
+        return __builtin_sqrt(c2);
+    /* waves along the way of their motion (Gray 2001 eq 5.52) */
+    return __builtin_sqrt(c2 + 4 * sph_material_of(sim, set)->shear / (3 * set->rho0));
+}
+
+/* the fastest sound of the scene's sets (m/s); nominal: the fastest c0 of its bodies, with which viscosity and diffusion
+   are made */
+static double fastest_sound(const sph_sim *sim, bool nominal)
+{
+    double c = 0;
     for (uint32_t s = 0; s < sim->sets; s++) {
         const sph_set *set = &sim->set[s];
-        double own = set->c0;
-        if (sph_is_solid(set)) /* waves along the way of their motion (Gray 2001 eq 5.52) */
-            own = __builtin_sqrt(own * own + 4 * sph_material_of(sim, set)->shear / (3 * set->rho0));
+        const double own = !nominal ? sound_of(sim, set) : sph_is_body(set) ? set->c0 : 0;
         c = own > c ? own : c;
     }
-    return SPH_IS(sim->cfg.eos, TAIT_GRAY) ? c * 2.6457513110645905905 : c; /* sqrt 7 */
+    return c;
 }
 
 /* kinematic viscosity that the chosen form amounts to (m^2/s) */
