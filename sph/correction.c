@@ -142,7 +142,8 @@ static void correction_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          sph_weak_scheme(sim->cfg.scheme),
                          total ? 1u << SPH_COLUMN_reference : 0,
                          correction_tile,
-                         correction_finish};
+                         correction_finish,
+                         0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool corrects(const sph_sim *sim) { return sph_corrects(&sim->cfg); }

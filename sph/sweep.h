@@ -13,13 +13,6 @@
 
 #include "scratch.h"
 
-/* how a run of particles is seen from the home cell: x' = sign x + shift, v' = flip v */
-typedef struct sph_image {
-    bool is_image;
-    sph_pos sign[SPH_DIM], shift[SPH_DIM];
-    sph_real flip[SPH_DIM];
-} sph_image;
-
 /* n particles of one set from index `first` on, seen through an image from the cell whose low corner is `origin` */
 typedef struct sph_candidates {
     const sph_sim *sim;
@@ -85,7 +78,9 @@ typedef struct sph_sweep {
     uint32_t columns;     /* an or of 1 << SPH_COLUMN_... */
     void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role); /* add a tile to the homes' sums */
     void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                     /* a home's sums are complete */
+    uint8_t apart;        /* an or of SPH_APART_...: its tiles of bodies are of one kind of candidates */
 } sph_sweep;
+enum { SPH_APART_KIN = 1, SPH_APART_MIRRORED = 2 }; /* of one material; seen through the same mirrors */
 
 #define sph_sweep_chunk SPH_NAME(sweep_chunk_)
 void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_thread *t);

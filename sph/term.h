@@ -40,7 +40,7 @@ typedef struct sph_choice {
     uint8_t repulsion;         /* exponent of the artificial stress, 0: none */
     uint8_t loses;             /* with books: the form does not conserve energy, so what it loses is summed too */
     uint8_t summed;            /* density by summation */
-    uint8_t spare;
+    uint8_t apart;             /* the factors are of one kind of pairs */
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 16, "sph_choice is compared as two words (forces.c)");
 /* whether the rate of density is summed without rho_i, by which it is multiplied in the end */
