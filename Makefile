@@ -160,6 +160,7 @@ builds_test_kernels := $(BUILDS)
 builds_test_conserve := $(BUILDS)
 builds_test_bits    := $(BUILDS)
 builds_test_balance := $(BUILDS)
+builds_test_materials := $(BUILDS)
 builds_test_fail    := 1d 2f 3f
 builds_test_entry   := 1f 2f 2d 3d
 builds_test_dumps   := $(BUILDS)

@@ -68,7 +68,7 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {adami_home, SPH_BODIES, SPH_SUM_MASK(0, SUMS), false, 0, adami_tile, adami_finish};
+    static const sph_sweep w = {adami_home, SPH_BODIES, SPH_SUM_MASK(0, SUMS), false, 0, adami_tile, adami_finish, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 

@@ -11,6 +11,29 @@ static __attribute__((noinline)) sph_status check_positive(sph_sim *sim, const c
     return sph_setup_bad(sim, what, most > 1e20f ? "0 or 1e-30 .. 1e30" : "0 or 1e-15 .. 1e15", v);
 }
 
+static bool same(double a, double b) { return !(a < b) && !(b < a); }
+
+static bool is_usual(double v, double usual) { return v == 0 || same(v, usual); }
+
+/* whom a new set is of one material with, and whether the scene's sums must ask that of pairs */
+static void find_kin(sph_sim *sim, sph_set *s)
+{
+    if (!SPH_WITH_SEVERAL_FLUIDS)
+        return;
+    const sph_config *c = &sim->cfg;
+    s->kin = 0;
+    while (&sim->set[s->kin] < s) {
+        const sph_set *o = &sim->set[s->kin];
+        if (sph_is_body(o) && o->role == s->role && o->eos == s->eos && same(o->rho0, s->rho0) && same(o->c0, s->c0))
+            break;
+        s->kin++;
+    }
+    for (const sph_set *o = sim->set; o < s; o++)
+        sim->mixed |= sph_is_body(o) && o->kin != s->kin;
+    sim->own_sound |= !same(s->c0, c->sound_speed);
+    sim->mixed |= sim->own_sound || !same(s->rho0, c->rho0) || SPH_IS(s->eos, TAIT_GRAY) != SPH_IS(c->eos, TAIT_GRAY);
+}
+
 /* begins a set of fluid or solid: what both have; *out is the place for the rest, or stays null */
 static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint32_t *set, sph_set **out)
 {
@@ -24,6 +47,8 @@ static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint3
         (st = check_positive(sim, solid ? "solid.rho0" : "fluid.rho0", f->rho0, 1e30f)) != SPH_OK ||
         (st = check_positive(sim, solid ? "solid.sound_speed" : "fluid.sound_speed", f->sound_speed, 1e15f)) != SPH_OK)
         return st;
+    if (!SPH_WITH_SEVERAL_FLUIDS && (!is_usual(f->rho0, sim->cfg.rho0) || !is_usual(f->sound_speed, sim->cfg.sound_speed)))
+        return sph_setup_bad(sim, "rho0, sound_speed", "those of the configuration, as compiled (modules.h)", f->rho0);
     if (f->own_eos && (!SPH_WITH_SOLID || !sph_in(SPH_EOSES_IN, f->eos)))
         return sph_setup_bad(sim, "eos", "one of SPH_TAIT .. SPH_ISOTHERMAL, compiled in (modules.h)", f->eos);
     if (sim->sets == sim->cfg.max_sets)
@@ -48,6 +73,7 @@ sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *f, uint32_t *set)
         return st;
     s->role = SPH_ROLE_FLUID;
     sph_setup_finish_set(sim, s);
+    find_kin(sim, s);
     *set = sim->sets++;
     return SPH_OK;
 }
@@ -116,6 +142,7 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32
     for (size_t i = 0; i < sizeof v / sizeof *v; i++)
         sim->setup_hash = sph_mix_double(sim->setup_hash, v[i]);
     sph_setup_finish_set(sim, s);
+    find_kin(sim, s);
     *set = sim->sets++;
     return SPH_OK;
 }

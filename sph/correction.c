@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* correction.c: corrected gradients, M = -sum m_j x_ij (x) K g, kept as M^-1 (Bonet & Lok 1999); in the weak scheme
    with m_j/rho_j. L = (-sum m_j v_ij (x) K g) M^-1 is then exact for linear fields. Not over pairs of two bodies,
-   which know nothing of each other's strain. In the total-Lagrangian form the longest bond of each home is looked at
+   which know nothing of each other's strain. Where the neighbours do not span space (sph_invert_sum) the plain form is
+   taken. In the total-Lagrangian form the longest bond of each home is looked at
    too.
 
    Array: M^-1 (DIM^2 reals, once). Cost: a sweep before the forces. */
@@ -120,7 +121,7 @@ static void correction_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     sph_real m[SPH_DIM][SPH_DIM], inv[SPH_DIM][SPH_DIM];
     for (int k = 0; k < SPH_NL; k++)
         m[k / SPH_DIM][k % SPH_DIM] = -v_fold(t->sum[SUM_M + k][h]) * sim->fac.slope;
-    const bool fine = sph_invert((const sph_real(*)[SPH_DIM])m, inv, 0);
+    const bool fine = sph_invert_sum((const sph_real(*)[SPH_DIM])m, inv, 1 / plain);
     for (int k = 0; k < SPH_NL; k++)
         sim->corr[k][i] = fine ? inv[k / SPH_DIM][k % SPH_DIM] : k % (SPH_DIM + 1) == 0 ? plain : 0;
     if (SPH_HAS_TOTAL && sph_is_total(&sim->cfg))
@@ -141,7 +142,8 @@ static void correction_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          sph_weak_scheme(sim->cfg.scheme),
                          total ? 1u << SPH_COLUMN_reference : 0,
                          correction_tile,
-                         correction_finish};
+                         correction_finish,
+                         0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool corrects(const sph_sim *sim) { return sph_corrects(&sim->cfg); }

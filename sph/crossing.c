@@ -87,14 +87,14 @@ static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_th
     uint32_t w = inside_wall(sim, b, i, &depth);
     if (w == SPH_MAX_SETS)
         return;
-    const double held = books ? sph_energy_sum(sim, b, i) : 0;
+    const double held = SPH_WITH_BOOKS && books ? sph_energy_sum(sim, b, i) : 0;
     t->crossed++;
     if (sim->cfg.on_cross == SPH_FAIL)
         sph_fail_note(t, SPH_WALL_CROSSED, b->id[0][i], depth);
     else if (sim->cfg.on_cross == SPH_REMOVE) {
         b->set[0][i] = SPH_DEAD;
         t->removed++;
-        if (books)
+        if (SPH_WITH_BOOKS && books)
             books[JUMP_REMOVED] += held;
     } else {
         for (int turn = 0; turn < 3 && w != SPH_MAX_SETS; turn++) { /* a corner may need more than one */
@@ -102,7 +102,7 @@ static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_th
             t->put_back += turn == 0;
             w = inside_wall(sim, b, i, &depth);
         }
-        if (books)
+        if (SPH_WITH_BOOKS && books)
             books[JUMP_PUT_BACK] += held - sph_energy_sum(sim, b, i);
     }
 }

@@ -65,6 +65,13 @@ static sph_real root_of(sph_real x)
     return x > 0 ? (sph_real)sph_pow((double)x, 1.0 / 3) : 0;
 }
 
+/* energy that damage has a share in */
+static double held_in(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const sph_energy e = sph_energy_of(sim, b, i);
+    return e.elastic + e.internal;
+}
+
 void sph_grow_damage(const sph_sim *sim, sph_span s, double *books)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
@@ -87,10 +94,10 @@ void sph_grow_damage(const sph_sim *sim, sph_span s, double *books)
         if (root >= most) /* also without any active flaw */
             continue;
         const sph_real grown = root + (sph_real)(sim->dt * sph_material_of(sim, set)->crack_rate) * (sph_real)active;
-        const double held = books ? sph_energy_of(sim, b, i).elastic + sph_energy_of(sim, b, i).internal : 0;
+        const double held = SPH_WITH_BOOKS && books ? held_in(sim, b, i) : 0;
         b->damage[0][i] = grown < most ? grown : most;
-        if (books)
-            books[JUMP_RELEASED] += held - sph_energy_of(sim, b, i).elastic - sph_energy_of(sim, b, i).internal;
+        if (SPH_WITH_BOOKS && books)
+            books[JUMP_RELEASED] += held - held_in(sim, b, i);
     }
 }
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* density.c: density by summation, rho_i = sum m_j W (Gray 2001 eq 2.19), and the Shepard filter, rho_i = sum m_j
-   W/sum (m_j/rho_j) W (Wickramarachchi 2009 eq 6.3). Array: tmp, the new density until all have read the old one.
+   W/sum (m_j/rho_j) W (Wickramarachchi 2009 eq 6.3), over what is of the same material, as
+   rho_i - rho0 = sum (m_j/rho_j) W (rho_j - rho0)/sum (m_j/rho_j) W, so that rounding is of the difference. Array: tmp, the new density until all have read the old one.
    Cost: a sweep and a local pass. */
 #include "locals.h"
 #include "pair.h"
@@ -31,7 +32,7 @@ static void summation_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void summation_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     static const sph_sweep w = {sph_body_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(SUM_MW, 2), true, 0,
-                                density_tile, summation_finish};
+                                density_tile, summation_finish, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool sums_density(const sph_sim *sim) { return sph_sums_density(&sim->cfg); }
@@ -45,16 +46,36 @@ static bool filters_now(const sph_sim *sim)
 }
 
 #if SPH_WITH_SHEPARD
+SPH_INLINE void shepard_pair(const void *what, uint32_t j, vreal *s)
+{
+    const sph_gather *g = what;
+    const sph_real *const rho0 = g->own;
+    vreal dx[SPH_DIM];
+    sph_gather_distance(g, j, dx);
+    const vreal w = sph_gather_value(g, dx) * (v_load(g->tile->m + j) * v_load(g->tile->inv_rho + j));
+    s[SUM_MW] = s[SUM_MW] + w * (v_load(g->tile->rho + j) - *rho0);
+    s[SUM_VW] = s[SUM_VW] + w;
+}
+static void shepard_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    (void)role;
+    for (uint32_t h = 0; h < homes; h++) {
+        const sph_set *set = &sim->set[t->home_set[h]];
+        const sph_gather g = {t, &t->bodies, h, sim->cfg.kernel, v_set(sim->fac.inv_h), &set->rho0_r};
+        if (!SPH_WITH_SEVERAL_FLUIDS || !sim->mixed || t->of->kin == set->kin)
+            sph_sum_home(t, h, t->bodies.n, SPH_SUM_MASK(SUM_MW, 2), shepard_pair, &g);
+    }
+}
 static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_real rho0 = sim->set[t->home_set[h]].rho0_r;
     /* the particle itself is in both sums, so the lower one is never 0 */
-    sim->tmp[t->home_at[h]] = (v_fold(t->sum[SUM_MW][h]) / v_fold(t->sum[SUM_VW][h]) - rho0) / rho0;
+    sim->tmp[t->home_at[h]] = v_fold(t->sum[SUM_MW][h]) / v_fold(t->sum[SUM_VW][h]) / rho0;
 }
 static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(SUM_MW, 2), true, 0, density_tile,
-                                shepard_finish};
+    const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(SUM_MW, 2), true, 0, shepard_tile, shepard_finish,
+                         SPH_WITH_SEVERAL_FLUIDS && sim->mixed ? SPH_APART_KIN : 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, filters_now};

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* diffusion.h: density diffusion (Molteni & Colagrossi 2009; Fourtakas et al. 2019), between bodies only:
-     drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + 0.01 h^2)
-   with rho_H the difference that gravity makes between the two places (HYDROSTATIC), or 0. */
+     drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + eta)
+   with eta 0.01 h^2 (1e-6 h^2 beside Morris's viscosity),
+   with rho_H the difference that gravity makes between the two places (HYDROSTATIC), or 0. An image has the density of
+   its original: rho_H is that of the original's place (forces.c, factors_of). Only within one material. */
 #ifndef SPH_DIFFUSION_H
 #define SPH_DIFFUSION_H
 
@@ -17,6 +19,8 @@ SPH_INLINE void sph_diffusion(const sph_choice *c, const sph_factors *f, const s
         SPH_UNROLL
         for (int k = 0; k < SPH_DIM; k++)
             dr = dr - p->dx[k] * f->hydro[k];
+        if (SPH_HAS_APART && c->apart)
+            dr = dr - f->hydro_offset;
     }
     /* (rho_j - rho_i) x_ji . grad W = (rho_i - rho_j) r^2 g; the sum rho_i + rho_j in inv is taken out again */
     p->diff = dr * (p->r2 * p->inv * (h->rho + p->rho)) * p->mg * p->inv_rho * f->diff;

@@ -97,8 +97,9 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     p.wall = wall;
     p.tile = o->tile;
     p.j = j;
-    p.force = p.gain = v_set(0);
+    p.force = v_set(0);
     p.apart = v_set_int(0);
+    p.gain = v_set(0);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         p.push[k] = v_set(0);
@@ -159,15 +160,17 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         gradient = sph_spread_gradient(c, sim, t, h);
     }
     sph_stress_home solid;
-    if (SPH_WITH_SOLID && c->solid) {
+    if (SPH_WITH_SOLID) /* a place, whether the scene has it or not */
         o.stress = sph_stress_tile_of(sim, t);
+    if (SPH_WITH_SOLID && c->solid) {
         o.smoothed = c->hat ? sph_smoothed_of(sim, t) : NULL;
         solid = sph_spread_stress(c, sph_stress_homes_of(sim, t), c->hat ? sph_smoothed_homes_of(sim, t) : NULL, h);
         o.solid = &solid;
     }
     sph_reference_home was;
-    if (SPH_HAS_TOTAL && c->solid && c->total) {
+    if (SPH_HAS_TOTAL)
         o.reference = sph_reference_of(sim, t);
+    if (SPH_HAS_TOTAL && c->solid && c->total) {
         was = sph_spread_reference(sph_reference_homes_of(sim, t), h);
         o.was = &was;
     }
@@ -183,39 +186,49 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
 /* ---- general forms: every choice read at run time ---- */
 
 /* in small builds one text for bodies and ghosts, else one each */
-SPH_INLINE void force_general(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_INLINE void force_general(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const bool wall = SPH_HAS_LAYERED_WALLS && c->wall;
     if (SPH_SMALL)
-        force_home(c, &sim->fac, sim, t, h, wall);
+        force_home(c, f, sim, t, h, wall);
     else if (wall)
-        force_home(c, &sim->fac, sim, t, h, true);
+        force_home(c, f, sim, t, h, true);
     else
-        force_home(c, &sim->fac, sim, t, h, false);
+        force_home(c, f, sim, t, h, false);
+}
+/* whatever does not conserve energy, where that is on the books: in small builds with the others */
+SPH_APART void force_losing(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    sph_choice own = *c;
+    own.loses = own.books = 1;
+    own.solid = SPH_WITH_SOLID && own.solid;
+    force_general(&own, f, sim, t, h);
 }
 /* the form that covers fluids (in small builds with corrected gradients); corrected gradients; scenes with solids */
-SPH_APART void force_fluid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_APART void force_fluid(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = own.total = own.hat = own.repulsion = 0;
+    own.loses = SPH_SMALL && own.loses;
     own.gradient = SPH_SMALL ? own.gradient : 0;
-    force_general(&own, sim, t, h);
+    force_general(&own, f, sim, t, h);
 }
-SPH_APART void force_corrected(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_APART void force_corrected(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = own.repulsion = 0;
-    force_general(&own, sim, t, h);
+    own.solid = own.total = own.hat = own.repulsion = own.loses = 0;
+    force_general(&own, f, sim, t, h);
 }
-SPH_APART void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *t, uint32_t h)
+SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = true;
     own.gradient = 0;
+    own.loses = SPH_SMALL && own.loses;
     own.total = SPH_HAS_TOTAL && own.total;
     own.hat = SPH_HAS_HAT && own.hat;
     own.repulsion = SPH_HAS_REPULSION ? own.repulsion : 0;
-    force_general(&own, sim, t, h);
+    force_general(&own, f, sim, t, h);
 }
 
 /* ---- fast paths: the same text with the choices as constants; a line adds a path ---- */
@@ -341,10 +354,10 @@ static const struct {
 
 static bool same_choice(const sph_choice *a, const sph_choice *b)
 {
-    uint64_t x[2], y[2];
+    uint64_t x[3], y[3];
     memcpy(x, a, sizeof x);
     memcpy(y, b, sizeof y);
-    return x[0] == y[0] && x[1] == y[1];
+    return x[0] == y[0] && x[1] == y[1] && x[2] == y[2];
 }
 
 /* the fast path of these choices, or null */
@@ -382,11 +395,53 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .part = (uint8_t)part};
 }
 
+/* what the tiles of bodies must be of one kind for (sph_sweep.apart) */
+static uint8_t kept_apart(const sph_sim *sim)
+{
+    const sph_config *c = &sim->cfg;
+    const bool artificial = sph_viscous(c->viscosity) && !SPH_IS(c->viscosity, MORRIS);
+    const bool asks = (sph_diffusive(c->diffusion) && sim->mixed) || (artificial && sim->own_sound);
+    uint8_t apart = SPH_WITH_SEVERAL_FLUIDS && asks ? SPH_APART_KIN : 0;
+    for (uint32_t k = 0; k < SPH_DIM && SPH_HAS_MIRRORS && SPH_IS(c->diffusion, HYDROSTATIC); k++)
+        for (uint32_t side = 0; side < 2; side++) {
+            const uint32_t face = c->face[k][side];
+            const bool mirror = SPH_IS(face, SYMMETRY) || SPH_IS(face, MIRROR_NO_SLIP);
+            apart |= mirror && c->gravity[k] != 0 ? SPH_APART_MIRRORED : 0;
+        }
+    return apart;
+}
+
+/* The constants of the pair formulas between a home and a tile of one kind: viscosity with the mean of both sound speeds
+   (walls: the home's), diffusion with that of the one material that it acts in. Where an image shows what stands in
+   truth at S - x' (home cell's coordinates), the difference that gravity makes is of x_i - (S - x') = -(x_i - x') +
+   2 x_i - S. */
+static void factors_of(const sph_sim *sim, const sph_thread *t, uint32_t h, bool ghosts, sph_factors *f)
+{
+    const sph_config *c = &sim->cfg;
+    const sph_set *i = &sim->set[t->home_set[h]], *j = ghosts ? i : t->of;
+    const double c2 = i->c0 * i->c0 * (SPH_IS(i->eos, TAIT_GRAY) ? 7 : 1);
+    *f = sim->fac;
+    f->av_alpha = (sph_real)(c->smoothing_length * c->alpha * (i->c0 + j->c0));
+    if (SPH_HAS_DIFFUSION)
+        f->diff = i->kin == j->kin ? (sph_real)(2 * c->delta * c->smoothing_length * i->c0) : 0;
+    for (uint32_t k = 0; k < SPH_DIM && SPH_IS(c->diffusion, HYDROSTATIC); k++) {
+        const double slope = i->rho0 * c->gravity[k] / c2;
+        const bool turned = !ghosts && t->seen.sign[k] < 0;
+        f->hydro[k] = (sph_real)(turned ? -slope : slope);
+        if (turned)
+            f->hydro_offset += (sph_real)(slope * (2 * (double)t->home.x[k][h] -
+                                                   (double)(t->seen.shift[k] - 2 * t->origin[k]) * sim->grid.quantum));
+    }
+}
+
 /* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over bodies only; its acceleration is
    not used. */
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    const sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
+    sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
+    const sph_factors *f = &sim->fac;
+    sph_factors own;
+    c.apart = SPH_HAS_APART && kept_apart(sim);
     fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&c);
     if (fast) {
         fast(sim, t, homes);
@@ -395,14 +450,20 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
     for (uint32_t h = 0; h < homes; h++) {
         if (role != SPH_ROLE_FLUID && !sph_is_body(&sim->set[t->home_set[h]]))
             continue;
+        if (SPH_HAS_APART && c.apart && role != SPH_ROLE_FORCE_WALL) {
+            factors_of(sim, t, h, role == SPH_ROLE_GHOST, &own);
+            f = &own;
+        }
         if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
             sph_boundary_force(sim, t, h);
+        else if (SPH_WITH_BOOKS && !SPH_SMALL && c.loses)
+            force_losing(&c, f, sim, t, h);
         else if (SPH_WITH_SOLID && c.solid)
-            force_solid(&c, sim, t, h);
+            force_solid(&c, f, sim, t, h);
         else if (SPH_HAS_FLUID_GRADIENT && !SPH_SMALL && c.gradient)
-            force_corrected(&c, sim, t, h);
+            force_corrected(&c, f, sim, t, h);
         else
-            force_fluid(&c, sim, t, h);
+            force_fluid(&c, f, sim, t, h);
     }
 }
 
@@ -591,7 +652,8 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          sph_needs_inv_rho(c.scheme, c.diffusion),
                          columns_of(&c),
                          force_tile,
-                         force_finish};
+                         force_finish,
+                         SPH_HAS_APART ? kept_apart(sim) : 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 

@@ -3,9 +3,7 @@
    tile.
 
    Array: N (Bonet & Lok) or B (renormalised), symmetric, SPH_DIM (SPH_DIM + 1)/2 reals. Cost: a sweep before the
-   forces. Where the neighbours do not span space the plain gradient is taken: where E = M/rho is nearly singular, or
-   smaller than six tenths of what a particle in the corner of a block has, 2^-SPH_DIM on every axis (lone particles,
-   pairs, drops). */
+   forces. Where the neighbours do not span space (sph_invert_sum, of E = M/rho) the plain gradient is taken. */
 #include "gradient.h"
 
 #if SPH_HAS_FLUID_GRADIENT
@@ -61,13 +59,6 @@ static void gradient_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uin
         sph_gather_by(sim->cfg.kernel, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &own);
 }
 
-/* the least determinant of E that is inverted */
-static sph_real least_of(void)
-{
-    const sph_real edge = (sph_real)0.6 / (1 << SPH_DIM);
-    return SPH_DIM == 1 ? edge : SPH_DIM == 2 ? edge * edge : edge * edge * edge;
-}
-
 static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const bool weak = sph_weak_scheme(sim->cfg.scheme), bonet = SPH_IS(sim->cfg.gradient, BONET_LOK);
@@ -76,7 +67,7 @@ static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = k; l < SPH_DIM; l++)
             e[k][l] = e[l][k] = -v_fold(t->sum[sph_sym[k][l]][h]) * sim->fac.slope * scale;
-    const bool fine = sph_invert((const sph_real(*)[SPH_DIM])e, inv, least_of());
+    const bool fine = sph_invert_sum((const sph_real(*)[SPH_DIM])e, inv, 1);
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = k; l < SPH_DIM; l++)
             sim->gradient[sph_sym[k][l]][t->home_at[h]] = (fine ? inv[k][l] : k == l ? 1 : 0) * back;
@@ -85,7 +76,7 @@ static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void gradient_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_sweep w = {sph_body_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(0, SPH_NT),
-                         sph_weak_scheme(sim->cfg.scheme), 0, gradient_tile, gradient_finish};
+                         sph_weak_scheme(sim->cfg.scheme), 0, gradient_tile, gradient_finish, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool corrects_fluids(const sph_sim *sim) { return sph_corrects_fluids(&sim->cfg); }

@@ -27,7 +27,8 @@ uint64_t sph_hash(const sph_sim *sim)
             h = sph_mix_double(sph_mix(h, (uint64_t)s->group[g].moved[k]), s->group[g].vel[k]);
     }
     /* without books all are 0, and count as they did when there were four */
-    for (uint32_t k = 0; k < SPH_POWERS && (k <= POWER_BODY || sph_keeps_books(&sim->cfg)); k++)
+    const uint32_t powers = sph_keeps_books(&sim->cfg) ? SPH_POWERS : POWER_BODY + 1;
+    for (uint32_t k = 0; k < powers; k++)
         h = sph_mix_double(sph_mix_double(h, s->work[k]), s->power[k]);
     return mix_books(h, &sim->cfg, s);
 }

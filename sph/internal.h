@@ -39,6 +39,7 @@ typedef struct sph_set {
     uint32_t role, kind, group; /* group: SPH_MAX_GROUPS if it moves by forces alone */
     bool compressible, no_slip, corner;
     uint8_t eos;
+    uint8_t kin; /* bodies: the first set of the same material: role, rest density, sound speed, equation of state */
     double mass, rho0, c0;
     double strength;
     double origin[SPH_DIM];     /* middle of the wall's face at displacement 0, from the domain's low corner (m) */
@@ -79,7 +80,7 @@ typedef struct sph_factors {
     sph_real inv_h, eta, reach, reach2, slope, value;
     sph_real inv_wdx, repulsion; /* artificial stress: 1/(W(dx) without its scale), epsilon */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
-    sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], gravity[SPH_DIM], small_p;
+    sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
     bool rate_by_density, continuity, extras;
     bool loses, bonds;           /* books: the form does not conserve energy; contact or artificial stress */
 } sph_factors;
@@ -158,6 +159,7 @@ struct sph_sim {
     uint32_t sets, groups;
     uint64_t setup_hash;
     bool has_adami, has_force_wall;
+    bool mixed, own_sound; /* bodies are of several materials, or one that is not the configuration's; so is their c0 */
     /* state */
     sph_scalars now, next; /* next: being made by the step under way */
     bool table_valid;      /* cell[] belongs to buffer cur */

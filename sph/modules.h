@@ -34,6 +34,7 @@
     X(ARTIFICIAL, 1) /* viscosities */                                                                     \
     X(ARTIFICIAL_APPROACHING, 1)                                                                           \
     X(MORRIS, 1)                                                                                           \
+    X(SEVERAL_FLUIDS, 1) /* sets of another rest density, sound, eos than the configuration's */           \
     X(MOLTENI, 1) /* density diffusion */                                                                  \
     X(HYDROSTATIC, 1)                                                                                      \
     X(BONET_LOK, 1) /* corrected gradients of fluids */                                                    \
@@ -85,6 +86,8 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_HAS_IMAGES (SPH_WITH_PERIODIC || SPH_HAS_MIRRORS)
 #define SPH_HAS_FLUID_GRADIENT (SPH_WITH_BONET_LOK || SPH_WITH_RENORMALISED)
 #define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
+/* sums that depend on whom they meet: another material, or an image of what is heavier below */
+#define SPH_HAS_APART (SPH_WITH_SEVERAL_FLUIDS || (SPH_WITH_HYDROSTATIC && SPH_HAS_MIRRORS))
 #define SPH_HAS_FILTERS (SPH_WITH_SHEPARD || SPH_WITH_SUMMATION)
 #define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */
 #define SPH_HAS_RUNGE_KUTTA (SPH_WITH_RUNGE_KUTTA || SPH_WITH_RUNGE_KUTTA_MOMENTUM)

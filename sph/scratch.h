@@ -18,6 +18,13 @@
 #define SPH_SLICE_CHUNK 1u   /* cells, in a step that is done in slices */
 #define SPH_LOCAL_CHUNK 256u /* particles */
 
+/* how a run of particles is seen from the home cell: x' = sign x + shift, v' = flip v */
+typedef struct sph_image {
+    bool is_image;
+    sph_pos sign[SPH_DIM], shift[SPH_DIM];
+    sph_real flip[SPH_DIM];
+} sph_image;
+
 /* what every candidate brings */
 typedef struct sph_tile {
     uint32_t n;
@@ -55,6 +62,10 @@ typedef struct sph_thread {
             sph_points points;
             uint32_t home_at[SPH_HOMES]; /* index of the home particle */
             uint8_t home_set[SPH_HOMES];
+            /* where a pass asks for tiles of one kind: a set in `bodies`, through which image, from which cell */
+            const sph_set *of;
+            sph_image seen;
+            sph_pos origin[SPH_DIM];
             sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */
         };
         sph_block block;                /* the sort */

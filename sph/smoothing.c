@@ -45,7 +45,7 @@ static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     static const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SPH_DIM), false, 0, smooth_tile,
-                                smooth_finish};
+                                smooth_finish, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool smooths(const sph_sim *sim) { return sph_smooths_strain(&sim->cfg); }

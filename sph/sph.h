@@ -128,7 +128,8 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
               weak rates beside the standard momentum; the pairs here conserve energy.
    CORRECTED  L = (-sum m_j v_ij (x) K g) M^-1, M = -sum m_j x_ij (x) K g: exact for linear fields, and the force that
               does the same work, T = -sigma M^-T/rho (Bonet & Lok 1999), so momentum and angular momentum stay. Costs
-              a sweep. Where M is nearly singular (lone particles, lines of them) the plain form is taken.
+              a sweep. Where M is nearly singular or small (lone particles, lines of them, particles a
+              support apart) the plain form is taken.
    TOTAL      the same with K the vector in the reference position, for pairs of one body of which neither is fully
               damaged; fixed neighbours, no tensile instability. A particle may go half a domain's length from where
               it began (else MOVED_TOO_FAR). Contact of two bodies: no stress is shared; they push each other along
@@ -155,11 +156,11 @@ enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_S
 
 /* Viscosities. ARTIFICIAL: Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu, mu = v.r/(r^2 + 0.01 h^2), on
    approaching and receding pairs (Gray 2.18). ARTIFICIAL_APPROACHING: on approaching pairs only
-   (Wickramarachchi 3.18). MORRIS: sum m_j (4 nu/(rho_i + rho_j)) (r.grad W)/(r^2 + 0.01 h^2) v_ij with the
+   (Wickramarachchi 3.18). MORRIS: sum m_j (4 nu/(rho_i + rho_j)) (r.grad W)/(r^2 + 1e-6 h^2) v_ij with the
    kinematic viscosity nu (Morris, Fox & Zhu 1997, with the mean of both densities). */
 enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
 
-/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W. MOLTENI: psi = (rho_j - rho_i)
+/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W, which limits the step to h/(8 delta c0). MOLTENI: psi = (rho_j - rho_i)
    r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
    two positions is taken off first (Fourtakas et al. 2019, linearised), so still water stays still. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
@@ -208,7 +209,7 @@ enum { SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE, SPH_POLICIES };
 /* What set the time step; also named in sph_step_info. */
 #define SPH_LIMIT_LIST(X)                                                                                   \
     X(FIXED, "fixed") X(COURANT, "courant") X(VISCOUS, "viscous") X(FORCE, "force") X(GRAVITY, "gravity")  \
-    X(CEILING, "dt_max") X(TARGET, "end time")
+    X(CEILING, "dt_max") X(TARGET, "end time") X(DIFFUSIVE, "diffusion")
 enum {
 #define SPH_LIMIT_ENUM(name, text) SPH_LIMIT_##name,
     SPH_LIMIT_LIST(SPH_LIMIT_ENUM)
@@ -626,11 +627,11 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
-    X(carried_off, "J", c->books, "energy that it had")                                                               \
-    X(released, "J", c->books, "elastic energy and that of tension that damage let go")                               \
-    X(put_back_loss, "J", c->books, "lost by particles that were put back off a wall; < 0: gained")                   \
-    X(filtered, "J", c->books, "taken from the internal energy by the Shepard filter")                                \
-    X(damped, "J", c->books, "kinetic energy that damping took, to first order in dt")
+    X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                                               \
+    X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")                               \
+    X(put_back_loss, "J", SPH_WITH_BOOKS && c->books, "lost by particles that were put back off a wall; < 0: gained")                   \
+    X(filtered, "J", SPH_WITH_BOOKS && c->books, "taken from the internal energy by the Shepard filter")                                \
+    X(damped, "J", SPH_WITH_BOOKS && c->books, "kinetic energy that damping took, to first order in dt")
 
 /* Energy is accounted for whole. At every instant
      d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes,

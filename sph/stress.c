@@ -79,8 +79,10 @@ SPH_INLINE void corrected_stress(const sph_candidates *r, uint32_t i, vreal rho,
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = 0; l < SPH_DIM; l++) {
             vreal sum = v_set(0);
-            for (int m = 0; m < SPH_DIM; m++)
-                sum = sum + s[sph_sym[k][m]] * v_load(r->sim->corr[l * SPH_DIM + m] + i);
+            for (int m = 0; m < SPH_DIM; m++) { /* the index that is summed turns as both: 1 but behind a no-slip face */
+                const sph_real turn = r->im->flip[m] * (sph_real)r->im->sign[m];
+                sum = sum + s[sph_sym[k][m]] * (turn * v_load(r->sim->corr[l * SPH_DIM + m] + i));
+            }
             t[k * SPH_DIM + l] = sum * scale;
         }
 }
@@ -95,7 +97,7 @@ SPH_INLINE void load_repulsion(const sph_candidates *r, const vreal *s, vreal w,
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t l = k; l < SPH_DIM; l++) {
             const uint32_t n = sph_sym[k][l];
-            v_store(to + (SPH_NL + n) * row, sph_seen_tensor(r, k, l, part[n] * scale));
+            v_store(to + (SPH_NL + n) * row, sph_seen_stress(r, k, l, part[n] * scale));
         }
 }
 
@@ -118,7 +120,7 @@ void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row)
             corrected_stress(r, i, rho, s, t);
         SPH_UNROLL_MANY
         for (uint32_t k = 0; k < SPH_NL; k++)
-            v_store(to + k * row + j, sph_seen_tensor(r, k / SPH_DIM, k % SPH_DIM, t[k]));
+            v_store(to + k * row + j, (corrects ? sph_seen_mixed : sph_seen_stress)(r, k / SPH_DIM, k % SPH_DIM, t[k]));
     }
 }
 

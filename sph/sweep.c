@@ -86,6 +86,24 @@ static void load_run(filling *f, const sph_candidates *r, uint32_t role)
         load_sets(f, r, ghosts, false);
 }
 
+/* whether candidates of a set, seen through an image, may join those in the tile of bodies; if the tile is empty, what
+   they are is noted */
+static bool joins(filling *f, const sph_set *set, const sph_image *im)
+{
+    sph_thread *const t = f->t;
+    bool same = true;
+    if (t->bodies.n == 0) {
+        t->of = set;
+        t->seen = *im;
+        memcpy(t->origin, f->origin, sizeof t->origin);
+    }
+    if (f->w->apart & SPH_APART_KIN)
+        same &= t->of->kin == set->kin;
+    for (uint32_t k = 0; k < SPH_DIM && f->w->apart & SPH_APART_MIRRORED; k++)
+        same &= t->seen.sign[k] == im->sign[k] && (im->sign[k] > 0 || t->seen.shift[k] == im->shift[k]);
+    return same;
+}
+
 /* candidates s..e of one set into their tile */
 static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_t s, uint32_t e)
 {
@@ -94,6 +112,10 @@ static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_
     while (s < e) {
         if (*n == SPH_TILE)
             flush(f, role);
+        if (SPH_HAS_APART && f->w->apart && role == SPH_ROLE_FLUID && !joins(f, set, im)) {
+            flush(f, role);
+            (void)joins(f, set, im);
+        }
         const uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
         const sph_tile *const tile = role == SPH_ROLE_GHOST ? &f->t->ghosts : &f->t->bodies;
         const sph_candidates r = {f->sim, f->b, im, set, f->origin, s, take, tile, *n};

@@ -13,13 +13,6 @@
 
 #include "scratch.h"
 
-/* how a run of particles is seen from the home cell: x' = sign x + shift, v' = flip v */
-typedef struct sph_image {
-    bool is_image;
-    sph_pos sign[SPH_DIM], shift[SPH_DIM];
-    sph_real flip[SPH_DIM];
-} sph_image;
-
 /* n particles of one set from index `first` on, seen through an image from the cell whose low corner is `origin` */
 typedef struct sph_candidates {
     const sph_sim *sim;
@@ -38,11 +31,22 @@ SPH_INLINE vreal sph_seen_place(const sph_candidates *r, uint32_t k, vint q)
     const vint seen = q * v_set_int(r->im->sign[k]) + v_set_int(r->im->shift[k] - r->origin[k]);
     return v_from_int(seen) * v_set((sph_real)r->sim->grid.quantum);
 }
-/* component k of a vector, components k, l of a tensor, as the image shows them */
+/* Component k of a vector, components k, l of a tensor as the image shows them: a tensor of geometry (sums of x (x) x)
+   turns as places do; a stress as velocities do, so that behind a no-slip face the shear keeps its sign and what is
+   sheared along the face hangs on to it; a product of the two (sigma M^-T) with its first index as velocities, with its
+   second as places do. */
 SPH_INLINE vreal sph_seen_vector(const sph_candidates *r, uint32_t k, vreal v) { return v * r->im->flip[k]; }
 SPH_INLINE vreal sph_seen_tensor(const sph_candidates *r, uint32_t k, uint32_t l, vreal v)
 {
     return r->im->is_image && k != l ? v * (sph_real)(r->im->sign[k] * r->im->sign[l]) : v;
+}
+SPH_INLINE vreal sph_seen_stress(const sph_candidates *r, uint32_t k, uint32_t l, vreal v)
+{
+    return r->im->is_image && k != l ? v * (r->im->flip[k] * r->im->flip[l]) : v;
+}
+SPH_INLINE vreal sph_seen_mixed(const sph_candidates *r, uint32_t k, uint32_t l, vreal v)
+{
+    return r->im->is_image ? v * (r->im->flip[k] * (sph_real)r->im->sign[l]) : v;
 }
 
 /* A column set: rows of reals that a module's candidates (and, of bodies, homes) bring beside those of every tile.
@@ -74,7 +78,9 @@ typedef struct sph_sweep {
     uint32_t columns;     /* an or of 1 << SPH_COLUMN_... */
     void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role); /* add a tile to the homes' sums */
     void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                     /* a home's sums are complete */
+    uint8_t apart;        /* an or of SPH_APART_...: its tiles of bodies are of one kind of candidates */
 } sph_sweep;
+enum { SPH_APART_KIN = 1, SPH_APART_MIRRORED = 2 }; /* of one material; seen through the same mirrors */
 
 #define sph_sweep_chunk SPH_NAME(sweep_chunk_)
 void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_thread *t);

@@ -116,4 +116,14 @@ SPH_INLINE_BIG bool sph_invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH
     return true;
 }
 
+/* Inverse of a sum M = -sum m_j x_ij (x) K g around a particle, or false where its neighbours do not span space: where M
+   is nearly singular, or smaller than six tenths of what a particle in the corner of a block has, `whole` times
+   2^-SPH_DIM on every axis (lone particles, pairs, drops: of a neighbour at the edge of the support M is any multiple of
+   a tensor of good shape). whole: what it is inside a body, rho; in the weak scheme 1. */
+SPH_INLINE bool sph_invert_sum(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM], sph_real whole)
+{
+    const sph_real edge = (sph_real)0.6 / (1 << SPH_DIM) * whole;
+    return sph_invert(m, inv, SPH_DIM == 1 ? edge : SPH_DIM == 2 ? edge * edge : edge * edge * edge);
+}
+
 #endif

@@ -44,8 +44,10 @@ typedef struct sph_choice {
     uint8_t loses;             /* with books: the form does not conserve energy, so what it loses is summed too */
     uint8_t summed;            /* density by summation */
     uint8_t part;              /* SPH_PART_... */
+    uint8_t apart;             /* the factors are of one kind of pairs */
+    uint8_t spare[7];
 } sph_choice;
-_Static_assert(sizeof(sph_choice) == 16, "sph_choice is compared as two words (forces.c)");
+_Static_assert(sizeof(sph_choice) == 24, "sph_choice is compared as three words (forces.c)");
 SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }
 SPH_INLINE bool sph_takes_forces(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_RATES; }
 /* whether the rate of density is summed without rho_i, by which it is multiplied in the end */

@@ -1,20 +1,30 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* timestep.c: the time step: the smallest of what sound, viscosity, forces and gravity allow after the latest force
-   sweep (Gray 2001 eq 2.30, Wickramarachchi 2009 eqs 3.88-3.90), unless it is fixed. */
+/* timestep.c: the time step: the smallest of what sound, viscosity, density diffusion, forces and gravity allow after
+   the latest force sweep (Gray 2001 eq 2.30, Wickramarachchi 2009 eqs 3.88-3.90), unless it is fixed. */
 #include "timestep.h"
 
-/* fastest sound of the scene's sets (m/s) */
-static double fastest_sound(const sph_sim *sim)
+/* sound of a set at rest (m/s) */
+static double sound_of(const sph_sim *sim, const sph_set *set)
 {
-    double c = sim->cfg.sound_speed;
+    const double c2 = set->c0 * set->c0 * (SPH_IS(set->eos, TAIT_GRAY) ? 7 : 1);
+    if (!sph_is_solid(set))
+        return __builtin_sqrt(c2);
+    /* waves along the way of their motion (Gray 2001 eq 5.52) */
+    return __builtin_sqrt(c2 + 4 * sph_material_of(sim, set)->shear / (3 * set->rho0));
+}
+
+/* the fastest sound of the scene's sets (m/s); nominal: the fastest c0 of its bodies, with which viscosity and diffusion
+   are made */
+static double fastest_sound(const sph_sim *sim, bool nominal)
+{
+    /* before there are sets; and bodies in contact push each other by the configuration's */
+    double c = sim->sets == 0 || sph_is_total(&sim->cfg) ? sim->cfg.sound_speed : 0;
     for (uint32_t s = 0; s < sim->sets; s++) {
         const sph_set *set = &sim->set[s];
-        double own = set->c0;
-        if (sph_is_solid(set)) /* waves along the way of their motion (Gray 2001 eq 5.52) */
-            own = __builtin_sqrt(own * own + 4 * sph_material_of(sim, set)->shear / (3 * set->rho0));
+        const double own = !nominal ? sound_of(sim, set) : sph_is_body(set) ? set->c0 : 0;
         c = own > c ? own : c;
     }
-    return SPH_IS(sim->cfg.eos, TAIT_GRAY) ? c * 2.6457513110645905905 : c; /* sqrt 7 */
+    return c;
 }
 
 /* kinematic viscosity that the chosen form amounts to (m^2/s) */
@@ -33,11 +43,14 @@ static double size_of_gravity(const sph_config *c)
     return __builtin_sqrt(g2);
 }
 
+/* density diffusion is one of coefficient delta h c0: the rule of viscosity, h^2/8 over it */
+#define SPH_DIFFUSIVE_FACTOR 0.125
+
 void sph_find_limits(const sph_sim *sim, double *l)
 {
     const sph_config *c = &sim->cfg;
-    const double h = c->smoothing_length, c0 = fastest_sound(sim), a = (double)sim->now.peaks.acc;
-    const double nu = viscosity_of(c, c0), g = size_of_gravity(c);
+    const double h = c->smoothing_length, c0 = fastest_sound(sim, false), a = (double)sim->now.peaks.acc;
+    const double nominal = fastest_sound(sim, true), nu = viscosity_of(c, nominal), g = size_of_gravity(c);
     memset(l, 0, SPH_LIMITS * sizeof *l);
     l[SPH_LIMIT_FIXED] = c->dt;
     if (c->dt > 0)
@@ -47,6 +60,8 @@ void sph_find_limits(const sph_sim *sim, double *l)
         l[SPH_LIMIT_VISCOUS] = c->viscous_factor * h * h / nu;
     if (a > 0)
         l[SPH_LIMIT_FORCE] = c->force_factor * __builtin_sqrt(h / a);
+    if (sph_diffusive(c->diffusion) && c->delta > 0)
+        l[SPH_LIMIT_DIFFUSIVE] = SPH_DIFFUSIVE_FACTOR * h / (c->delta * nominal);
     l[SPH_LIMIT_GRAVITY] = g > 0 ? c->gravity_factor * h / (c0 + __builtin_sqrt(g * h)) : 0;
     l[SPH_LIMIT_CEILING] = c->dt_max;
 }

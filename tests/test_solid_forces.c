@@ -131,11 +131,11 @@ static void torques_cancel_where_gradients_are_corrected(void **state)
 }
 #endif
 
-/* a body cut by a mirror plane has the accelerations and rates of the whole (not with artificial stress by components:
-   of a shear stress and its mirror image only one is positive) */
-static void a_mirror_face_is_the_other_half(void **state)
+/* A body cut by a mirror plane has the accelerations and rates of the whole (not with artificial stress by components:
+   of a shear stress and its mirror image only one is positive). Behind a no-slip face the other half stands as in a
+   mirror, moves the other way and has the same stress: its shear goes on, and so does its traction along the face. */
+static void the_other_half_of(uint32_t face)
 {
-    (void)state;
     for (uint32_t form = SPH_UPDATED; form <= SPH_TOTAL; form++)
         for (uint32_t repel = 0; repel <= (form == SPH_TOTAL ? SPH_NO_ARTIFICIAL_STRESS : SPH_PRINCIPAL); repel++) {
             sph_sim *sim[2];
@@ -149,7 +149,7 @@ static void a_mirror_face_is_the_other_half(void **state)
                 c.max_stretch = 1;
                 if (!whole) {
                     c.lo[0] = 0;
-                    c.face[0][0] = SPH_SYMMETRY;
+                    c.face[0][0] = face;
                 }
                 sim[whole] = new_sim(&c);
                 sph_rng_seed(&dice, 13, 1);
@@ -167,8 +167,9 @@ static void a_mirror_face_is_the_other_half(void **state)
                     if (!whole)
                         continue;
                     x[0] = -x[0];
-                    v[0] = -v[0];
-                    for (int k = 1; k < 3; k++)
+                    for (int k = 0; k < (face == SPH_SYMMETRY ? 1 : SPH_DIM); k++)
+                        v[k] = -v[k];
+                    for (int k = 1; k < 3 && face == SPH_SYMMETRY; k++)
                         s.v[0][k] = s.v[k][0] = -s.v[0][k];
                     must(sim[1], sph_add_particle(sim[1], set, x, v, rho, &id));
                     set_stress(sim[1], id, s);
@@ -196,6 +197,98 @@ static void a_mirror_face_is_the_other_half(void **state)
             close_to(out, 0, 128 * EPS * rates);
             assert_int_equal(free_sims(NULL), 0);
         }
+}
+static void a_mirror_face_is_the_other_half(void **state)
+{
+    (void)state;
+    the_other_half_of(SPH_SYMMETRY);
+}
+static void a_no_slip_face_carries_shear(void **state)
+{
+    (void)state;
+    the_other_half_of(SPH_MIRROR_NO_SLIP);
+}
+
+#if SPH_DIM > 1
+/* a block with the same shear stress everywhere, hanging on a no-slip face: nothing pulls at the row on the face along
+   it, while the rows at free ends are pulled with about stress/(rho dx) */
+static void a_sheared_block_hangs_on_a_no_slip_face(void **state)
+{
+    (void)state;
+    for (uint32_t form = SPH_UPDATED; form <= SPH_TOTAL; form++) {
+        sph_config c = solid_config(form, SPH_PREDICTOR_CORRECTOR, 12 * DX, DX);
+        const sph_solid m = {.shear = MU};
+        tensor s = {{{0}}};
+        uint32_t set;
+        double lo[SPH_DIM], hi[SPH_DIM], bottom = 0, top = 0;
+        c.max_particles = SPH_DIM == 3 ? 2000 : 400;
+        c.max_stretch = 1;
+        c.lo[1] = 0;
+        c.face[1][0] = SPH_MIRROR_NO_SLIP;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_solid(sim, &m, &set, NULL));
+        for (int k = 0; k < SPH_DIM; k++) {
+            lo[k] = 0;
+            hi[k] = (k == 1 ? 8 : 12) * DX;
+        }
+        must(sim, sph_add_box(sim, set, lo, hi, NULL));
+        s.v[0][1] = s.v[1][0] = 1e-3 * MU;
+        set_all_stress(sim, s);
+        must(sim, sph_ready(sim));
+        for (uint32_t i = 0; i < sph_count(sim); i++) {
+            sph_particle p;
+            must(sim, sph_get(sim, i, &p));
+            if (fabs(p.x[0] - 6.5 * DX) > 0.1 * DX || (SPH_DIM == 3 && fabs(p.x[SPH_DIM - 1] - 6.5 * DX) > 0.1 * DX))
+                continue; /* the middle column */
+            bottom = p.x[1] < DX ? p.a[0] : bottom;
+            top = p.x[1] > 7 * DX ? p.a[0] : top;
+        }
+        print_message("%s: pulled along by %.3g on the face, %.3g at the free end (stress/rho dx is %.3g)\n",
+                      form_names[form], bottom, top, 1e-3 * MU / RHO / DX);
+        assert_true(fabs(top) > 0.3 * 1e-3 * MU / RHO / DX);
+        close_to(bottom, 0, 128 * EPS * fabs(top));
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+#endif
+
+/* three particles of which each is almost, or just, out of the others' reach are pulled as without correction: M of them
+   is tiny but of good shape */
+static void too_few_neighbours_take_the_plain_gradient(void **state)
+{
+    static const double places[4][3] = {{0}, {1}, {0.5, 0.8660254}, {0.5, 0.2886751, 0.8164966}};
+    (void)state;
+    for (uint32_t form = SPH_CORRECTED; form <= SPH_TOTAL; form++)
+        for (uint32_t scheme = SPH_STANDARD; scheme <= SPH_WEAK; scheme++)
+            for (int out = 0; out < 2; out++) {
+                double a[2][4][SPH_DIM], size = 0;
+                for (int plain = 0; plain < 2; plain++) {
+                    sph_config c = solid_config(plain ? SPH_UPDATED : form, SPH_PREDICTOR_CORRECTOR, 8 * DX, DX);
+                    const sph_solid m = {.shear = MU};
+                    uint32_t set;
+                    c.scheme = scheme;
+                    c.max_stretch = 1;
+                    sph_sim *sim = new_sim(&c);
+                    must(sim, sph_add_solid(sim, &m, &set, NULL));
+                    for (uint32_t i = 0; i <= SPH_DIM; i++) {
+                        double x[SPH_DIM];
+                        for (int k = 0; k < SPH_DIM; k++)
+                            x[k] = places[i][k] * (out ? 2.0001 : 1.9999) * c.smoothing_length;
+                        must(sim, sph_add_particle(sim, set, x, NULL, 750, NULL)); /* p = -1e5 Pa */
+                    }
+                    must(sim, sph_ready(sim));
+                    for (uint32_t i = 0; i <= SPH_DIM; i++)
+                        for (int k = 0; k < SPH_DIM; k++) {
+                            a[plain][i][k] = by_id(sim, i).a[k];
+                            size = fmax(size, fabs(a[plain][i][k]));
+                        }
+                }
+                assert_true(size < 1e-2 && (out || size > 0));
+                for (uint32_t i = 0; i <= SPH_DIM; i++)
+                    for (int k = 0; k < SPH_DIM; k++)
+                        close_to(a[0][i][k], a[1][i][k], 1e-3 * size);
+                assert_int_equal(free_sims(NULL), 0);
+            }
 }
 
 /* ---- energy ---- */
@@ -586,6 +679,11 @@ int main(void)
         subject(torques_cancel_where_gradients_are_corrected),
 #endif
         subject(a_mirror_face_is_the_other_half),
+        subject(a_no_slip_face_carries_shear),
+#if SPH_DIM > 1
+        subject(a_sheared_block_hangs_on_a_no_slip_face),
+#endif
+        subject(too_few_neighbours_take_the_plain_gradient),
         subject(a_free_block_keeps_its_energy),
         subject(viscosity_and_yield_take_what_the_books_say),
         subject(held_sets_do_the_work_on_the_books),
