@@ -643,9 +643,9 @@ typedef struct sph_totals {
 #define sph_get_totals SPH_NAME(get_totals)
 void sph_get_totals(const sph_sim *sim, sph_totals *out);
 
-/* Values at a point x (m): Shepard-normalised sums over fluid and solid; walls and images behind faces are not in them.
-   `cover` = sum (m/rho) W is about 1 inside, 1/2 on a surface, on a wall or on a face of the domain, and falls to 0
-   outside; where it is below 1e-6 the values are 0. */
+/* Values at a point x (m): Shepard-normalised sums over fluid and solid and their images behind the faces of the domain;
+   walls are not in them. `cover` = sum (m/rho) W is about 1 inside and on faces that have images, 1/2 on a surface, on a
+   wall or on an open face, and falls to 0 outside; where it is below 1e-6 the values are 0. */
 typedef struct sph_probe_value {
     double cover, rho, p, v[SPH_DIM];
 } sph_probe_value;
@@ -654,10 +654,21 @@ sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out);
 /* n points evenly from a to b, both included. */
 #define sph_probe_line SPH_NAME(probe_line)
 sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, uint32_t n, sph_probe_value *out);
-/* Height of fluid and solid along `axis` through x: the highest place where cover passes 1/2; the domain's low end if
-   there is none. x[axis] does not matter, but must be finite like the others. */
+/* Three gauges along `axis` through a point (m), which must be finite; each sees fluid and solid, and images.
+   gauge    the highest place where cover passes 1/2, flying drops included; the domain's low end if there is none. x
+            along the axis does not matter.
+   surface  of the water that stands on `bed`: the first place, from half a spacing above it upwards, where cover falls
+            below 1/2; the bed itself where that half spacing is dry. Drops above do not count, nor what is above a
+            bubble.
+   depth    integral of cover along the whole line: the volume in the column over its cross-section, smoothed over a
+            support across the axis, drops included (beside a wall, where cover is less, it is less). x along the axis
+            does not matter. */
 #define sph_gauge SPH_NAME(gauge)
 sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height);
+#define sph_surface SPH_NAME(surface)
+sph_status sph_surface(const sph_sim *sim, const double *bed, uint32_t axis, double *height);
+#define sph_depth SPH_NAME(depth)
+sph_status sph_depth(const sph_sim *sim, const double *x, uint32_t axis, double *depth);
 /* Smallest and largest coordinate of fluid and solid along an axis, by particle centres. */
 #define sph_extent SPH_NAME(extent)
 void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high);
