@@ -91,8 +91,10 @@ typedef struct sph_report {
     const char *what;    /* name of the field, argument or quantity; "" if none */
     const char *allowed; /* what would be allowed, in words; "" if none */
     const char *pass;    /* pass of the step in which it happened; "" outside a step */
-    double value;        /* the offending value (bytes needed for ARENA_TOO_SMALL) */
+    double value;        /* the offending value; what is needed: bytes for ARENA_TOO_SMALL, particles for
+                            TOO_MANY_PARTICLES (of which 2^24 beyond the capacity are counted at most) */
     uint32_t particle;   /* id of the particle with the smallest id at fault, or SPH_NO_PARTICLE */
+    uint32_t set, role;  /* of that particle: SPH_ROLE_...; SPH_MAX_SETS, SPH_ROLES: not known */
 } sph_report;
 
 /* ---- 3 configuration -------------------------------------------------------------------------------*/
@@ -599,7 +601,7 @@ const char *sph_limit_text(uint32_t limit);
 double sph_time(const sph_sim *sim);
 
 /* ---- 8 reading the state ---------------------------------------------------------------------------*/
-enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL, SPH_ROLE_SOLID };
+enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL, SPH_ROLE_SOLID, SPH_ROLES };
 typedef struct sph_particle {
     uint32_t id, set, role;
     double x[SPH_DIM], v[SPH_DIM], a[SPH_DIM]; /* m, m/s, m/s^2 (0 before the first forces) */

@@ -35,7 +35,7 @@ static void close_sim(build_sim *s)
 static build_sim *no_memory(build_sim *s, sph_report *report, double bytes)
 {
     *report = (sph_report){SPH_ARENA_TOO_SMALL, "memory", "less: the machine does not give so many bytes", "", bytes,
-                           SPH_NO_PARTICLE};
+                           SPH_NO_PARTICLE, SPH_MAX_SETS, SPH_ROLES};
     close_sim(s);
     return NULL;
 }

@@ -391,6 +391,8 @@ static bool open_sim(run *r)
     return r->sim != NULL;
 }
 
+static const char *const role_names[SPH_ROLES] = {"fluid", "wall", "boundary wall", "solid"};
+
 static int step_failed(run *r, sph_status st)
 {
     const sph_report *why = r->b->last(r->sim);
@@ -399,7 +401,9 @@ static int step_failed(run *r, sph_status st)
     progress(r, true);
     host_no("step %llu failed: %s", (unsigned long long)info.step + 1, sph_status_text(st));
     if (why->particle != SPH_NO_PARTICLE)
-        fprintf(stderr, "  particle %u\n", why->particle);
+        fprintf(stderr, "  particle %u%s", why->particle, why->role < SPH_ROLES ? "" : "\n");
+    if (why->role < SPH_ROLES)
+        fprintf(stderr, " of set %u (%s)\n", why->set, role_names[why->role]);
     fprintf(stderr, "  quantity %s, value %g%s%s\n  pass     %s\n", *why->what ? why->what : "-", why->value,
             *why->allowed ? ", allowed: " : "", why->allowed, *why->pass ? why->pass : "-");
     write_full_dump(r, "failed");
