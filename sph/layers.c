@@ -43,6 +43,8 @@ static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
         return sph_setup_bad(sim, "wall.kind", "one of SPH_WALL_LENNARD_JONES .. SPH_WALL_ADAMI", w->kind);
     if (!sph_in(SPH_WALLS_IN, w->kind))
         return sph_setup_bad(sim, "wall.kind", "a kind that was compiled in (modules.h)", w->kind);
+    if (SPH_IS(w->kind, WALL_GHOST) && w->compressible && sph_sums_density(&sim->cfg))
+        return sph_setup_bad(sim, "wall.compressible", "false where density is summed: it has no rate", 1);
     if (!SPH_WITH_MOVING_WALLS && w->motion)
         return sph_setup_bad(sim, "wall.motion", "null: moving walls were left out (modules.h)", 1);
     if (!(w->strength >= 0 && w->strength < 1e30))

@@ -67,6 +67,7 @@
     X(STAGE_LOG, 1)                                                                                        \
     X(TOTALS, 1) /* sph_get_totals */                                                                      \
     X(PROBES, 1) /* sph_probe, sph_probe_line, gauges, sph_extent */                                       \
+    X(INSPECT, 1) /* sph_inspect */                                                                        \
     X(SHAPES, 1) /* rings, polygons, shapes with holes */                                                  \
     X(FIELDS, 1) /* sph_apply_field, sph_apply_hydrostatic */                                              \
     X(DUMP, 1) /* sph_dump */                                                                              \

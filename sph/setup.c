@@ -231,6 +231,8 @@ sph_status sph_setup_fill(sph_sim *sim, const char *call, uint32_t set, const do
                 if (!SPH_WITH_SHAPES || !inside || inside(shape, x))
                     st = sph_setup_append(sim, set, rel, v, 0);
             }
+    if (SPH_WITH_SHAPES && !st && inside && sim->now.count + (SPH_WITH_DETAILS ? sim->unplaced : 0) == before)
+        st = sph_setup_bad(sim, "shape", "one that holds the centre of at least one particle", 0);
     return sph_setup_end_adding(sim, before, st);
 }
 

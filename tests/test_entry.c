@@ -889,6 +889,17 @@ static void a_gauge_far_from_the_origin_ends(void **state)
     assert_true(h >= 1e15 && h <= 1e15 + 8);
 }
 
+static void no_finding(void *ctx, const sph_finding *f)
+{
+    (void)ctx;
+    assert_true(f->kind < SPH_FINDINGS && f->count > 0 && f->text[0]);
+}
+static void row_inspect(void)
+{
+    no_sim(sph_inspect(NULL, no_finding, NULL));
+    if_idle(sph_inspect(bed.sim, NULL, NULL), SPH_BAD_ARGUMENT);
+    if_idle(sph_inspect(bed.sim, no_finding, NULL), SPH_OK);
+}
 static void row_extent(void)
 {
     double low = 7, high = 7;
@@ -995,7 +1006,7 @@ static const row rows[] = {
     ROW(add_wall_box),
     ROW(remove_wall), ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel),
     ROW(get_step), ROW(time), ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge),
-    ROW(surface), ROW(depth),
+    ROW(surface), ROW(depth), ROW(inspect),
     ROW(extent), ROW(kernel_value),
     ROW(kernel_support), ROW(hash), ROW(dump), ROW(restore),
 };

@@ -111,7 +111,13 @@ static sph_status restore(build_sim *s, sph_source source, void *ctx)
     return st ? st : scene_between(s->sim, s->p, &s->cfg);
 }
 
+static sph_status inspect(build_sim *s, void (*fn)(void *ctx, const sph_finding *finding), void *ctx)
+{
+    return sph_inspect(s->sim, fn, ctx);
+}
+
 #define build_table SPH_NAME(build_table)
 extern const build build_table;
 const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,  time_of, history, totals,
-                           info,    usage,      count,     hash,       last,      arena, dump, restore};
+                           info,    usage,      count,     hash,       last,      arena, dump, restore,
+                           inspect};

@@ -50,6 +50,7 @@ typedef struct build {
     void (*arena)(const build_sim *s, void (*fn)(void *ctx, const char *name, size_t bytes), void *ctx);
     sph_status (*dump)(const build_sim *s, uint32_t fields, sph_sink sink, void *ctx);
     sph_status (*restore)(build_sim *s, sph_source source, void *ctx);
+    sph_status (*inspect)(build_sim *s, void (*fn)(void *ctx, const sph_finding *finding), void *ctx);
 } build;
 
 #define BUILDS 6u

@@ -455,9 +455,29 @@ static void catch_interrupt(void)
     sigaction(SIGTERM, &a, NULL);
 }
 
+/* what looks wrong in the scene as it was built */
+static void say_finding(void *ctx, const sph_finding *f)
+{
+    (void)ctx;
+    if (f->kind == SPH_FINDING_SPARE) /* scenes leave room on purpose */
+        return;
+    fprintf(stderr, "note: %u %s: %g (limit %g)", f->count, f->text, f->value, f->limit);
+    if (f->particle != SPH_NO_PARTICLE)
+        fprintf(stderr, ", particle %u", f->particle);
+    if (f->other != SPH_NO_PARTICLE)
+        fprintf(stderr, " and %u", f->other);
+    if (f->set < SPH_MAX_SETS)
+        fprintf(stderr, ", set %u", f->set);
+    fputc('\n', stderr);
+}
+
 static int run_scene(run *r)
 {
-    if (!open_sim(r) || (r->restore && !restore(r)) || !open_history(r) ||
+    if (!open_sim(r))
+        return HOST_NO;
+    if (!r->restore)
+        r->b->inspect(r->sim, say_finding, NULL);
+    if ((r->restore && !restore(r)) || !open_history(r) ||
         (r->cost && !host_create(&r->costs, r->cost)))
         return HOST_NO;
     sph_step_info info;
