@@ -187,6 +187,8 @@ builds_test_arena   := $(BUILDS)
 builds_test_sponge  := 1f 1d 2f 2d 3f
 builds_test_grid    := $(BUILDS)
 builds_test_oracle  := $(BUILDS)
+builds_test_inspect := 1f 2f 2d 3f
+builds_test_probes  := $(BUILDS)
 builds_of = $(or $(builds_$(1)),2f 2d)
 # the stability atlas (tests/lab): one program of parts from several builds
 atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension atlas_sponge box) \

@@ -36,8 +36,7 @@ static bool is_region(const sph_sim *sim, const sph_set *s)
     return !sph_is_body(s) && !s->corner && !sph_wall_removed(sim, s);
 }
 
-/* the wall a particle is least deep inside of, or SPH_MAX_SETS */
-static uint32_t inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *depth)
+uint32_t sph_inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *depth)
 {
     uint32_t found = SPH_MAX_SETS;
     for (uint32_t w = 0; w < sim->sets; w++) {
@@ -84,7 +83,7 @@ static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_th
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     double depth = 0;
-    uint32_t w = inside_wall(sim, b, i, &depth);
+    uint32_t w = sph_inside_wall(sim, b, i, &depth);
     if (w == SPH_MAX_SETS)
         return;
     const double held = SPH_WITH_BOOKS && books ? sph_energy_sum(sim, b, i) : 0;
@@ -100,7 +99,7 @@ static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_th
         for (int turn = 0; turn < 3 && w != SPH_MAX_SETS; turn++) { /* a corner may need more than one */
             put_back(sim, b, i, &sim->set[w], depth);
             t->put_back += turn == 0;
-            w = inside_wall(sim, b, i, &depth);
+            w = sph_inside_wall(sim, b, i, &depth);
         }
         if (SPH_WITH_BOOKS && books)
             books[JUMP_PUT_BACK] += held - sph_energy_sum(sim, b, i);

@@ -21,6 +21,18 @@ static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
     return SPH_IS(face, PERIODIC) ? 0 : 1;
 }
 
+#if SPH_WITH_DETAILS
+void sph_note_left(const sph_sim *sim, const sph_pos *q, uint32_t id, sph_thread *t)
+{
+    uint32_t k = 0; /* the first axis along which it is outside */
+    while (k + 1 < SPH_DIM && q[k] >= 0 && q[k] < sim->grid.extent[k])
+        k++;
+    const uint32_t high = q[k] >= 0;
+    const sph_pos beyond = high ? q[k] - sim->grid.extent[k] : -q[k];
+    sph_fail_note(t, (sph_status)(SPH_OUT_OF_FACE + 2 * k + high), id, (double)beyond * sim->grid.quantum);
+}
+#endif
+
 int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v)
 {
     int worst = 0;

@@ -22,7 +22,7 @@ uint64_t sph_hash(const sph_sim *sim)
     h = sph_mix_double(h, (double)s->peaks.mu);
     h = sph_mix_double(h, (double)s->peaks.acc);
     for (uint32_t g = 0; g < sim->groups; g++) {
-        h = sph_mix(h, s->group[g].removed);
+        h = sph_mix_double(sph_mix(h, s->group[g].removed), s->group[g].remove_at);
         for (int k = 0; k < SPH_DIM; k++)
             h = sph_mix_double(sph_mix(h, (uint64_t)s->group[g].moved[k]), s->group[g].vel[k]);
     }

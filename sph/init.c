@@ -17,26 +17,24 @@ static sph_status check_arena(const void *arena, size_t bytes, size_t need, sph_
 {
     const char *broken = sph_broken_arithmetic();
     if (broken)
-        *r = (sph_report){SPH_ARITHMETIC, broken, "IEEE 754 as written", "", 0, SPH_NO_PARTICLE};
-    else if (!arena || bytes < need)
-        *r = (sph_report){SPH_ARENA_TOO_SMALL, "arena", "at least so many bytes as the value says", "", (double)need,
-                          SPH_NO_PARTICLE};
-    else if ((uintptr_t)arena % SPH_ALIGN)
-        *r = (sph_report){SPH_ARENA_UNALIGNED, "arena", "a multiple of SPH_ALIGN", "",
-                          (double)((uintptr_t)arena % SPH_ALIGN), SPH_NO_PARTICLE};
-    return r->status;
+        return sph_tell(r, broken, "IEEE 754 as written", 0, SPH_ARITHMETIC);
+    if (!arena || bytes < need)
+        return sph_tell(r, "arena", "at least so many bytes as the value says", (double)need, SPH_ARENA_TOO_SMALL);
+    if ((uintptr_t)arena % SPH_ALIGN)
+        return sph_tell(r, "arena", "a multiple of SPH_ALIGN", (uint32_t)((uintptr_t)arena % SPH_ALIGN),
+                        SPH_ARENA_UNALIGNED);
+    return sph_tell(r, "", "", 0, SPH_OK);
 }
 
 sph_status sph_init(sph_sim **out, const sph_config *cfg, void *arena, size_t bytes, sph_report *report)
 {
-    sph_report local = SPH_NO_REPORT, *r = report ? report : &local;
     sph_grid grid;
     size_t need = 0;
-    *r = SPH_NO_REPORT;
     if (!out)
-        *r = (sph_report){SPH_BAD_ARGUMENT, "sim", "a place for the pointer", "", 0, SPH_NO_PARTICLE};
-    if (!out || sph_check_config(cfg, &grid, &need, r) != SPH_OK || check_arena(arena, bytes, need, r) != SPH_OK)
-        return r->status;
+        return sph_tell(report, "sim", "a place for the pointer", 0, SPH_BAD_ARGUMENT);
+    sph_status st = sph_check_config(cfg, &grid, &need, report);
+    if (st || (st = check_arena(arena, bytes, need, report)) != SPH_OK)
+        return st;
     memset(arena, 0, need);
     sph_sim *sim = sph_lay_out_arena(cfg, &grid, arena);
     sim->cfg = *cfg;
@@ -67,6 +65,7 @@ void sph_get_usage(const sph_sim *sim, sph_usage *out)
 
 const sph_report *sph_last(const sph_sim *sim)
 {
-    static const sph_report none = {SPH_BAD_ARGUMENT, "sim", "a simulation made by sph_init", "", 0, SPH_NO_PARTICLE};
+    static const sph_report none = {SPH_BAD_ARGUMENT, "sim", "a simulation made by sph_init", "", 0,
+                                    SPH_NO_PARTICLE,  SPH_MAX_SETS, SPH_ROLES};
     return sim ? &sim->report : &none;
 }

@@ -156,7 +156,7 @@ struct sph_sim {
     /* sets */
     const struct sph_column_set *columns;    /* the table of column sets (columns.c) */
     uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT]; /* of a thread's column sets: reals, and where each begins */
-    uint32_t sets, groups;
+    uint32_t sets, groups, unplaced; /* particles that an addition found no room for */
     uint64_t setup_hash;
     bool has_adami, has_force_wall;
     bool mixed, own_sound; /* bodies are of several materials, or one that is not the configuration's; so is their c0 */

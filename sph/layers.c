@@ -46,6 +46,8 @@ static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
     if (SPH_IS(w->kind, WALL_MONAGHAN_KOS) && sim->grid.support < 2 * sim->cfg.spacing)
         return sph_setup_bad(sim, "wall.kind", "another than MONAGHAN_KOS, which reaches two spacings, where the "
                              "kernel's support is less", w->kind);
+    if (SPH_IS(w->kind, WALL_GHOST) && w->compressible && sph_sums_density(&sim->cfg))
+        return sph_setup_bad(sim, "wall.compressible", "false where density is summed: it has no rate", 1);
     if (!SPH_WITH_MOVING_WALLS && w->motion)
         return sph_setup_bad(sim, "wall.motion", "null: moving walls were left out (modules.h)", 1);
     if (!(w->strength >= 0 && w->strength < 1e30))
@@ -66,19 +68,20 @@ static wall_mark mark_wall(const sph_sim *sim) { return (wall_mark){sim->sets, s
 
 static sph_status finish_wall(sph_sim *sim, const sph_wall *w, wall_mark m, sph_status st, uint32_t *group)
 {
-    if (!st && sim->now.count == m.count)
+    if (!st && sim->now.count + (SPH_WITH_DETAILS ? sim->unplaced : 0) == m.count)
         st = sph_setup_bad(sim, "wall", "at least one particle on the chosen faces", 0);
+    st = sph_setup_end_adding(sim, m.count, st);
     if (st) {
         sim->sets = m.sets;
         sim->setup_hash = m.hash;
-        return sph_setup_end_adding(sim, m.count, st);
+        return st;
     }
     sim->has_adami |= w->kind == SPH_WALL_ADAMI;
     sim->has_force_wall |= !layered(w);
     const uint32_t made = sph_setup_add_group(sim, w->motion, w->motion_ctx);
     if (group)
         *group = made;
-    return sph_setup_end_adding(sim, m.count, SPH_OK);
+    return SPH_OK;
 }
 
 /* a new set for one face or corner; origin, normal, tangent, half are from the caller */

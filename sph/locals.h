@@ -17,6 +17,9 @@ void sph_grow_damage(const sph_sim *sim, sph_span s, double *books);
 /* crossing.c: the policy for particles that are found inside a wall, after they moved */
 #define sph_cross_walls SPH_NAME(cross_walls_)
 void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t, double *books);
+/* the set of walls that a particle is least deep inside of (*depth, m), or SPH_MAX_SETS */
+#define sph_inside_wall SPH_NAME(inside_wall_)
+uint32_t sph_inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *depth);
 
 /* groups.c: displaces the groups that move to where they are at time t, and removes those whose time has come, unless
    they stand there already (not `moves`) */

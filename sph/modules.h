@@ -64,9 +64,11 @@
     X(SPONGE, 1) /* layers that take in waves */                                                           \
     X(BODY_FORCE, 1) /* a body force beside gravity */                                                     \
     X(BOOKS, 1) /* work and dissipation */                                                                 \
+    X(DETAILS, 1) /* reports of failures: set and role of the particle, face, particles needed */          \
     X(STAGE_LOG, 1)                                                                                        \
     X(TOTALS, 1) /* sph_get_totals */                                                                      \
-    X(PROBES, 1) /* sph_probe, sph_probe_line, sph_gauge, sph_extent */                                    \
+    X(PROBES, 1) /* sph_probe, sph_probe_line, gauges, sph_extent */                                       \
+    X(INSPECT, 1) /* sph_inspect */                                                                        \
     X(SHAPES, 1) /* rings, polygons, shapes with holes */                                                  \
     X(FIELDS, 1) /* sph_apply_field, sph_apply_hydrostatic */                                              \
     X(DUMP, 1) /* sph_dump */                                                                              \

@@ -16,6 +16,16 @@
    left */
 #define sph_enforce_faces SPH_NAME(enforce_faces_)
 int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v);
+/* notes that a particle which sph_enforce_faces left at q has left the domain, and through which face */
+#define sph_note_left SPH_NAME(note_left_)
+#if SPH_WITH_DETAILS
+void sph_note_left(const sph_sim *sim, const sph_pos *q, uint32_t id, sph_thread *t);
+#else
+SPH_INLINE void sph_note_left(const sph_sim *sim, const sph_pos *q, uint32_t id, sph_thread *t)
+{
+    sph_fail_note(t, SPH_OUT_OF_DOMAIN, id, (double)q[0] * sim->grid.quantum);
+}
+#endif
 
 /* ---- move.c: a block of particles of buffer src ---- */
 

@@ -128,7 +128,7 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
     if (r == 2) {
         o->gone[j] = 2;
         if (own && (sim->cfg.on_leave == SPH_FAIL || !body))
-            sph_fail_note(t, SPH_OUT_OF_DOMAIN, b->id[0][i], (double)q[0] * sim->grid.quantum);
+            sph_note_left(sim, q, b->id[0][i], t);
         t->left += own && !all;
         return;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* probes.c: values at a point or along a line, the height of the water, how far it reaches. */
+/* probes.c: values at a point or along a line, the height and the depth of the water, how far it reaches. Images behind
+   the faces of the domain are seen as by the sweep. Cost: a loop over all particles a point. */
 #include "kernels.h"
 #include "reading.h"
 
@@ -12,17 +13,71 @@ static double kernel_w(const sph_sim *sim, double r)
     return w;
 }
 
-static void probe_one(const sph_sim *sim, const double *x, sph_probe_value *o)
+/* ---- images ---- */
+
+/* how particles are seen: x' = sign x + shift (m), v' = flip v */
+typedef struct view {
+    double sign[SPH_DIM], shift[SPH_DIM], flip[SPH_DIM];
+} view;
+#define VIEWS (SPH_DIM == 1 ? 3u : SPH_DIM == 2 ? 9u : 27u)
+#define NO_AXIS SPH_DIM
+
+/* View number n: along axis k the particles themselves, or their images behind the low or the high face, as digit k of n
+   to the base of 3 says. False where there is no face with images within a support of x. Of a column along an axis all
+   is seen anyway: it needs no images there. */
+static bool make_view(const sph_sim *sim, const double *x, uint32_t n, uint32_t column, view *v)
+{
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        v->sign[k] = v->flip[k] = 1;
+    for (uint32_t k = 0; k < SPH_DIM; k++, n /= 3) {
+        const uint32_t digit = n % 3, high = digit == 2;
+        const double length = (double)sim->grid.extent[k] * sim->grid.quantum, edge = sim->cfg.lo[k] + high * length;
+        const uint32_t face = sim->cfg.face[k][high];
+        v->shift[k] = 0;
+        if (digit == 0)
+            continue;
+        if (!SPH_HAS_IMAGES || face == SPH_OPEN || k == column ||
+            !((high ? edge - x[k] : x[k] - edge) < sim->grid.support))
+            return false;
+        if (SPH_IS(face, PERIODIC)) {
+            v->shift[k] = high ? length : -length;
+            continue;
+        }
+        v->sign[k] = -1;
+        v->shift[k] = 2 * edge;
+        for (uint32_t a = 0; a < SPH_DIM; a++)
+            if (a == k || SPH_IS(face, MIRROR_NO_SLIP))
+                v->flip[a] = -v->flip[a];
+    }
+    return true;
+}
+
+static double seen_at(const sph_sim *sim, const sph_buffer *b, const view *v, uint32_t i, uint32_t k)
+{
+    return v->sign[k] * ((double)b->pos[k][i] * sim->grid.quantum + sim->cfg.lo[k]) + v->shift[k];
+}
+
+/* squared distance of a particle from x, or from the column along an axis through x; a support or more: any number that
+   is as large */
+static double apart2(const sph_sim *sim, const sph_buffer *b, const view *v, uint32_t i, const double *x, uint32_t column)
+{
+    const double reach2 = sim->grid.support * sim->grid.support;
+    double r2 = 0;
+    for (uint32_t k = 0; k < SPH_DIM && r2 < reach2; k++) {
+        const double d = k == column ? 0 : seen_at(sim, b, v, i, k) - x[k];
+        r2 += d * d;
+    }
+    return r2;
+}
+
+/* ---- values at a point ---- */
+
+static void probe_view(const sph_sim *sim, const double *x, const view *seen, sph_probe_value *o)
 {
     const sph_buffer *b = &sim->buf[sim->cur];
     const double reach2 = sim->grid.support * sim->grid.support;
-    memset(o, 0, sizeof *o);
     for (uint32_t i = 0; i < sim->now.count; i++) {
-        double d = ((double)b->pos[0][i] * sim->grid.quantum + sim->cfg.lo[0]) - x[0], r2 = d * d;
-        for (int k = 1; k < SPH_DIM && r2 < reach2; k++) {
-            d = ((double)b->pos[k][i] * sim->grid.quantum + sim->cfg.lo[k]) - x[k];
-            r2 += d * d;
-        }
+        const double r2 = apart2(sim, b, seen, i, x, NO_AXIS);
         if (!(r2 < reach2) || !sph_body_at(sim, b, i))
             continue;
         const sph_set *s = &sim->set[b->set[0][i]];
@@ -32,8 +87,17 @@ static void probe_one(const sph_sim *sim, const double *x, sph_probe_value *o)
         o->rho += w * rho;
         o->p += w * sph_pressure(sim, s, e);
         for (int k = 0; k < SPH_DIM; k++)
-            o->v[k] += w * (double)b->vel[k][i];
+            o->v[k] += w * seen->flip[k] * (double)b->vel[k][i];
     }
+}
+
+static void probe_one(const sph_sim *sim, const double *x, sph_probe_value *o)
+{
+    view v;
+    memset(o, 0, sizeof *o);
+    for (uint32_t n = 0; n < VIEWS; n++)
+        if (make_view(sim, x, n, NO_AXIS, &v))
+            probe_view(sim, x, &v, o);
     if (o->cover < 1e-6) {
         memset(o, 0, sizeof *o);
         return;
@@ -73,43 +137,133 @@ sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, 
     return SPH_OK;
 }
 
-sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height)
+/* ---- columns ---- */
+
+/* lowest and highest body, images included, within a support of the column along an axis through x; false: there is
+   none */
+static bool column_ends(const sph_sim *sim, const double *x, uint32_t axis, double *low, double *high)
 {
-    if (!sim || !x || !height || axis >= SPH_DIM || !finite_vector(x))
-        return SPH_BAD_ARGUMENT;
-    /* from above the highest fluid particle near the line down, a quarter spacing at a time */
     const sph_buffer *b = &sim->buf[sim->cur];
-    const double dx = sim->cfg.spacing, reach2 = sim->grid.support * sim->grid.support;
-    double at[SPH_DIM], top = sim->cfg.lo[axis], low = sim->cfg.lo[axis];
+    const double reach2 = sim->grid.support * sim->grid.support;
     bool any = false;
-    for (uint32_t i = 0; i < sim->now.count; i++) {
-        double p[SPH_DIM], r2 = 0;
-        if (!sph_body_at(sim, b, i))
-            continue;
-        sph_position(sim, b, i, p);
-        for (uint32_t k = 0; k < SPH_DIM; k++)
-            r2 += k == axis ? 0 : (p[k] - x[k]) * (p[k] - x[k]);
-        if (r2 < reach2 && (!any || p[axis] > top)) {
-            top = p[axis];
+    view v;
+    for (uint32_t n = 0; n < VIEWS; n++)
+        for (uint32_t i = 0; make_view(sim, x, n, axis, &v) && i < sim->now.count; i++) {
+            if (!sph_body_at(sim, b, i) || !(apart2(sim, b, &v, i, x, axis) < reach2))
+                continue;
+            const double y = seen_at(sim, b, &v, i, axis);
+            *low = !any || y < *low ? y : *low;
+            *high = !any || y > *high ? y : *high;
             any = true;
         }
-    }
-    *height = low;
-    if (!any)
-        return SPH_OK;
-    memcpy(at, x, sizeof at);
-    double above = 0, step = 0.25 * dx;
-    for (double y = top + 2 * dx; y > low - dx && y - step < y; y -= step) { /* far from 0 a step may be lost */
+    return any;
+}
+
+/* what a gauge looks along: from `from`, in steps of a quarter spacing, up (1) or down (-1) to `to` at most */
+typedef struct line {
+    double at[SPH_DIM], from, to, way;
+    uint32_t axis;
+} line;
+
+/* the place where cover first passes 1/2 in the wanted sense (rising or falling), between two points of the line in
+   proportion; `none` if it does not */
+static double crossing(const sph_sim *sim, line *l, bool rising, double none)
+{
+    const double step = 0.25 * sim->cfg.spacing;
+    double before = 0;
+    /* far from 0 a step may be lost */
+    for (double y = l->from; l->way * (l->to - y) >= 0 && y - step < y; y += l->way * step) {
         sph_probe_value v;
-        at[axis] = y;
-        probe_one(sim, at, &v);
-        if (v.cover >= 0.5) {
-            double f = v.cover > above ? (0.5 - above) / (v.cover - above) : 1;
-            *height = y + step * (1 - f);
-            return SPH_OK;
+        l->at[l->axis] = y;
+        probe_one(sim, l->at, &v);
+        if ((v.cover >= 0.5) == rising) {
+            const double share = v.cover < before || v.cover > before ? (0.5 - before) / (v.cover - before) : 1;
+            return y < l->from || y > l->from ? y - l->way * step * (1 - share) : y;
         }
-        above = v.cover;
+        before = v.cover;
     }
+    return none;
+}
+
+static bool imaged(const sph_sim *sim, uint32_t k, uint32_t side)
+{
+    return SPH_HAS_IMAGES && sim->cfg.face[k][side] != SPH_OPEN;
+}
+
+/* a column's line through x, upwards or downwards, that does not look behind faces with images */
+static line column_line(const sph_sim *sim, const double *x, uint32_t axis, double low, double high, bool up)
+{
+    const double bottom = sim->cfg.lo[axis], top = sim->cfg.hi[axis];
+    line l = {.axis = axis, .way = up ? 1 : -1};
+    memcpy(l.at, x, sizeof l.at);
+    low = imaged(sim, axis, 0) && low < bottom ? bottom : low;
+    high = imaged(sim, axis, 1) && high > top ? top : high;
+    l.from = up ? low : high;
+    l.to = up ? high : low;
+    return l;
+}
+
+sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height)
+{
+    double low = 0, high = 0;
+    if (!sim || !x || !height || axis >= SPH_DIM || !finite_vector(x))
+        return SPH_BAD_ARGUMENT;
+    const double dx = sim->cfg.spacing, floor = sim->cfg.lo[axis];
+    *height = floor;
+    if (!column_ends(sim, x, axis, &low, &high))
+        return SPH_OK;
+    line l = column_line(sim, x, axis, floor - dx, high + 2 * dx, false);
+    *height = crossing(sim, &l, true, floor);
+    return SPH_OK;
+}
+
+sph_status sph_surface(const sph_sim *sim, const double *bed, uint32_t axis, double *height)
+{
+    double low = 0, high = 0;
+    if (!sim || !bed || !height || axis >= SPH_DIM || !finite_vector(bed))
+        return SPH_BAD_ARGUMENT;
+    const double dx = sim->cfg.spacing;
+    *height = bed[axis];
+    if (!column_ends(sim, bed, axis, &low, &high))
+        return SPH_OK;
+    if (bed[axis] < low - sim->grid.support)
+        return SPH_OK;
+    line l = column_line(sim, bed, axis, bed[axis] + 0.5 * dx, high + 2 * dx, true);
+    *height = crossing(sim, &l, false, l.to);
+    if (!(*height > l.from)) /* dry */
+        *height = bed[axis];
+    return SPH_OK;
+}
+
+/* Integral of W along a line that passes a particle at distance sqrt(r2) (1/m^(DIM-1)): by the trapezoidal rule, which
+   is good for what is even at one end and flat at the other. */
+static double chord(const sph_sim *sim, double r2)
+{
+    enum { POINTS = 24 };
+    const double half = __builtin_sqrt(sim->grid.support * sim->grid.support - r2), step = half / POINTS;
+    double sum = 0.5 * kernel_w(sim, __builtin_sqrt(r2));
+    for (int i = 1; i < POINTS; i++)
+        sum += kernel_w(sim, __builtin_sqrt(r2 + step * i * (step * i)));
+    return 2 * step * sum;
+}
+
+sph_status sph_depth(const sph_sim *sim, const double *x, uint32_t axis, double *depth)
+{
+    if (!sim || !x || !depth || axis >= SPH_DIM || !finite_vector(x))
+        return SPH_BAD_ARGUMENT;
+    const sph_buffer *b = &sim->buf[sim->cur];
+    const double reach2 = sim->grid.support * sim->grid.support;
+    double sum = 0;
+    view v;
+    for (uint32_t n = 0; n < VIEWS; n++)
+        for (uint32_t i = 0; make_view(sim, x, n, axis, &v) && i < sim->now.count; i++) {
+            const double r2 = apart2(sim, b, &v, i, x, axis);
+            if (!(r2 < reach2) || !sph_body_at(sim, b, i))
+                continue;
+            const sph_set *s = &sim->set[b->set[0][i]];
+            sum += s->mass / (s->rho0 * (1 + (double)b->rho[0][i])) * chord(sim, r2);
+        }
+    *depth = sum;
     return SPH_OK;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* report.c: the texts of statuses and of limits of the step, and how a failure is reported. Knows no simulation. */
+/* report.c: the texts of statuses and of limits of the step, and reports outside a simulation. */
 #include "report.h"
 
 static const char *const status_texts[SPH_STATUS_COUNT] = {
@@ -19,17 +19,14 @@ static const char *const limit_texts[SPH_LIMITS] = {
 };
 const char *sph_limit_text(uint32_t limit) { return limit < SPH_LIMITS ? limit_texts[limit] : "unknown"; }
 
-sph_status sph_raise(sph_report *report, const sph_port *port, const sph_report *failure)
+__attribute__((noinline)) sph_status sph_tell(sph_report *report, const char *what, const char *allowed, double value, sph_status status)
 {
-    *report = *failure;
-    if (port->fault)
-        port->fault(port->ctx, report);
-    return report->status;
+    if (report)
+        *report = SPH_REPORT(status, what, allowed, "", value);
+    return status;
 }
 
 sph_status sph_refuse(sph_report *report, const char *what, const char *allowed, double value)
 {
-    if (report)
-        *report = (sph_report){SPH_BAD_CONFIG, what, allowed, "", value, SPH_NO_PARTICLE};
-    return SPH_BAD_CONFIG;
+    return sph_tell(report, what, allowed, value, SPH_BAD_CONFIG);
 }

@@ -81,17 +81,27 @@ static void run_chunks(sph_sim *sim, uint32_t n)
     sim->chunk += n;
 }
 
-static const char *fail_quantity(sph_status s)
+/* what a pass may fail of, by status from SPH_NOT_FINITE on: the quantity; and of SPH_OUT_OF_DOMAIN by face */
+static const char *const quantities[] = {"a rate or a squared magnitude", "relative density excess",
+                                         "x from the domain's low corner (m)",
+                                         "cells moved in one step", "depth inside the wall (m)",
+                                         SPH_HAS_TOTAL ? "length of a bond (m)" : ""};
+static const char *const faces[] = {"x beyond the low face (m)", "x beyond the high face (m)",
+#if SPH_DIM > 1
+                                    "y beyond the low face (m)", "y beyond the high face (m)",
+#endif
+#if SPH_DIM > 2
+                                    "z beyond the low face (m)", "z beyond the high face (m)",
+#endif
+};
+_Static_assert(SPH_BOND_TOO_LONG - SPH_NOT_FINITE + 1 == sizeof quantities / sizeof *quantities, "one a status");
+
+static sph_status report_fail(sph_sim *sim, const sph_fail *f)
 {
-    switch (s) {
-    case SPH_NOT_FINITE: return "a rate or a squared magnitude";
-    case SPH_DENSITY_LOST: return "relative density excess";
-    case SPH_OUT_OF_DOMAIN: return "x from the domain's low corner (m)";
-    case SPH_MOVED_TOO_FAR: return "cells moved in one step";
-    case SPH_WALL_CROSSED: return "depth inside the wall (m)";
-    case SPH_BOND_TOO_LONG: return SPH_HAS_TOTAL ? "length of a bond (m)" : "";
-    default: return "";
-    }
+    const uint32_t out = (uint32_t)f->status - SPH_OUT_OF_FACE;
+    if (SPH_WITH_DETAILS && out < 2 * SPH_DIM)
+        return sph_error(sim, SPH_OUT_OF_DOMAIN, faces[out], "", f->value, f->particle);
+    return sph_error(sim, f->status, quantities[f->status - SPH_NOT_FINITE], "", f->value, f->particle);
 }
 
 static sph_status end_pass(sph_sim *sim)
@@ -99,7 +109,7 @@ static sph_status end_pass(sph_sim *sim)
     const sph_pass *p = sim->program[sim->pc];
     sph_fail fail = sph_gather_threads(sim);
     if (fail.status)
-        return sph_error(sim, fail.status, fail_quantity(fail.status), "", fail.value, fail.particle);
+        return report_fail(sim, &fail);
     sph_status st = p->end ? p->end(sim) : SPH_OK;
     if (st)
         return st;
@@ -245,8 +255,10 @@ sph_status sph_step_slice(sph_sim *sim, uint64_t budget)
         return sph_error(sim, SPH_BAD_ARGUMENT, "budget", "> 0", 0, SPH_NO_PARTICLE);
     const uint64_t step = sim->now.step;
     sph_status st = advance(sim, 1e300, budget);
-    /* preparing the first forces is not a step: there is one to come */
-    return st == SPH_OK && sim->now.step == step ? SPH_NOT_DONE : st;
+    if (st || sim->now.step != step)
+        return st;
+    st = begin_step(sim, SPH_SLICE_CHUNK); /* these were the first forces: the step is to come */
+    return st ? st : SPH_NOT_DONE;
 }
 
 void sph_step_cancel(sph_sim *sim)

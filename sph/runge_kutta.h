@@ -27,7 +27,7 @@ SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const
     if (r == 2) {
         t->left++;
         if (sim->cfg.on_leave == SPH_FAIL || !sph_is_body(&sim->set[b->set[0][i]]))
-            sph_fail_note(t, SPH_OUT_OF_DOMAIN, sph_source_id(sim, i), (double)q[0] * sim->grid.quantum);
+            sph_note_left(sim, q, sph_source_id(sim, i), t);
         else
             b->set[0][i] = SPH_DEAD;
         return;

@@ -76,15 +76,24 @@ sph_pos sph_setup_to_quanta(const sph_sim *sim, double x)
     return (sph_pos)(q < 0 ? q - 0.5 : q + 0.5);
 }
 
+#define MOST_UNPLACED 16777216u /* no more are counted */
+static sph_status too_many(sph_sim *sim, uint32_t more)
+{
+    return sph_error(sim, SPH_TOO_MANY_PARTICLES, "max_particles", "at least as many as the value says",
+                     sim->now.count + more, SPH_NO_PARTICLE);
+}
+
 /* appends one particle; x from the domain's low corner */
 sph_status sph_setup_append(sph_sim *sim, uint32_t set, const double *x, const double *v, double d)
 {
     uint32_t n = sim->now.count;
-    if (n == sim->cfg.max_particles)
-        return sph_error(sim, SPH_TOO_MANY_PARTICLES, "max_particles", "more than were asked for", n, SPH_NO_PARTICLE);
     for (int k = 0; k < SPH_DIM; k++)
         if (!(x[k] >= 0 && x[k] < sim->grid.length[k]))
             return sph_setup_bad(sim, "position", "inside the domain, walls included", x[k] + sim->cfg.lo[k]);
+    if (!SPH_WITH_DETAILS && n == sim->cfg.max_particles)
+        return too_many(sim, 1);
+    if (n == sim->cfg.max_particles) /* the addition will be refused, with how many it needs */
+        return ++sim->unplaced < MOST_UNPLACED ? SPH_OK : SPH_TOO_MANY_PARTICLES;
     sph_buffer *b = &sim->buf[sim->cur];
     for (int k = 0; k < SPH_DIM; k++) {
         b->pos[k][n] = sph_setup_to_quanta(sim, x[k]);
@@ -128,6 +137,10 @@ sph_status sph_setup_begin_adding(sph_sim *sim, const char *call)
 
 sph_status sph_setup_end_adding(sph_sim *sim, uint32_t before, sph_status st)
 {
+    if (SPH_WITH_DETAILS && sim->unplaced && (!st || st == SPH_TOO_MANY_PARTICLES))
+        st = too_many(sim, sim->unplaced);
+    if (SPH_WITH_DETAILS)
+        sim->unplaced = 0;
     if (st)
         sim->now.count = before;
     sim->now.primed = false;
@@ -169,9 +182,10 @@ sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const d
         rel[k] = x[k] - sim->cfg.lo[k];
     uint32_t before = sim->now.count;
     st = sph_setup_append(sim, set, rel, v, rho > 0 ? (rho - rho0) / rho0 : 0);
+    st = sph_setup_end_adding(sim, before, st);
     if (!st && id)
         *id = before;
-    return sph_setup_end_adding(sim, before, st);
+    return st;
 }
 
 /* a lattice must begin and end within a domain's length of the domain: its points are all looked at, one by one */
@@ -219,6 +233,8 @@ sph_status sph_setup_fill(sph_sim *sim, const char *call, uint32_t set, const do
                 if (!SPH_WITH_SHAPES || !inside || inside(shape, x))
                     st = sph_setup_append(sim, set, rel, v, 0);
             }
+    if (SPH_WITH_SHAPES && !st && inside && sim->now.count + (SPH_WITH_DETAILS ? sim->unplaced : 0) == before)
+        st = sph_setup_bad(sim, "shape", "one that holds the centre of at least one particle", 0);
     return sph_setup_end_adding(sim, before, st);
 }
 

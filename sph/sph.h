@@ -3,7 +3,7 @@
 
    The whole manual is this file, in the order in which a host meets things:
      1 build knobs   2 status   3 configuration   4 arena and life   5 fluid and solid   6 walls   7 step
-     8 reading the state   9 books, probes, gauges   10 hash   11 dump and restore
+     8 reading the state   9 books, probes, gauges, inspection   10 hash   11 dump and restore
 
    A host fills a configuration, asks how many bytes it needs, hands over an arena, adds particles and
    walls, and steps. The library calls no allocator, opens no file, prints nothing and keeps no global
@@ -91,8 +91,10 @@ typedef struct sph_report {
     const char *what;    /* name of the field, argument or quantity; "" if none */
     const char *allowed; /* what would be allowed, in words; "" if none */
     const char *pass;    /* pass of the step in which it happened; "" outside a step */
-    double value;        /* the offending value (bytes needed for ARENA_TOO_SMALL) */
+    double value;        /* the offending value; what is needed: bytes for ARENA_TOO_SMALL, particles for
+                            TOO_MANY_PARTICLES (of which 2^24 beyond the capacity are counted at most) */
     uint32_t particle;   /* id of the particle with the smallest id at fault, or SPH_NO_PARTICLE */
+    uint32_t set, role;  /* of that particle: SPH_ROLE_...; SPH_MAX_SETS, SPH_ROLES: not known */
 } sph_report;
 
 /* ---- 3 configuration -------------------------------------------------------------------------------*/
@@ -401,6 +403,7 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *solid, uint32_t *set, ui
    particles and V their volume (Gray 2001 eqs 5.40, 5.41); a particle with 20 flaws takes no more. Draws come from
    splitmix64 (Steele, Lea & Flood 2014) started at seed: first p, then the particle; the same on every machine. Call
    it once for a set, after its particles were added and before the first step. A set without flaws is never damaged. */
+#if SPH_DIM > 1
 #define SPH_MAX_FLAWS 20u /* of one particle */
 typedef struct sph_flaws {
     double k; /* 1/m^DIM */
@@ -412,6 +415,7 @@ sph_status sph_add_flaws(sph_sim *sim, uint32_t set, const sph_flaws *flaws);
 /* The flaws of a particle: how many, and their thresholds in rising order into threshold[0 .. 19] (may be null). */
 #define sph_get_flaws SPH_NAME(get_flaws)
 sph_status sph_get_flaws(const sph_sim *sim, uint32_t id, uint32_t *count, float *threshold);
+#endif
 
 /* One particle: position x (m), velocity v (m/s, null: 0), density rho (kg/m^3, 0: rho0). Ids count from 0 in the
    order of adding. id may be null. */
@@ -419,7 +423,8 @@ sph_status sph_get_flaws(const sph_sim *sim, uint32_t id, uint32_t *count, float
 sph_status sph_add_particle(sph_sim *sim, uint32_t set, const double *x, const double *v, double rho, uint32_t *id);
 
 /* Lattices of the configured spacing: particle centres half a spacing inside the shape's low corner.
-   A box; a ball (disc in 2-D); a ring (shell) between two radii; a polygon of n corners (2-D, even-odd rule).
+   A box; a ball (disc in 2-D); a ring (shell) between two radii; a polygon of n corners (2-D, even-odd rule). Refused
+   where none would be added.
    v (null: at rest) is given to all. All or nothing: on failure no particle was added. A shape begins and ends within a
    domain's length of the domain: every point of its lattice is looked at. */
 #define sph_add_box SPH_NAME(add_box)
@@ -507,7 +512,7 @@ enum {
 
 typedef struct sph_wall {
     uint32_t kind;       /* SPH_WALL_... */
-    bool compressible;   /* GHOST: density by continuity instead of held */
+    bool compressible;   /* GHOST: density by continuity instead of held; refused where density is summed */
     bool no_slip;        /* GHOST, ADAMI: viscosity acts between fluid and wall */
     double strength;     /* see above; 0: the usual value (sound speed, spacing and gravity of the configuration) */
     uint32_t layers;     /* GHOST, ADAMI; 0: as many as the support needs */
@@ -605,7 +610,7 @@ const char *sph_limit_text(uint32_t limit);
 double sph_time(const sph_sim *sim);
 
 /* ---- 8 reading the state ---------------------------------------------------------------------------*/
-enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL, SPH_ROLE_SOLID };
+enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL, SPH_ROLE_SOLID, SPH_ROLES };
 typedef struct sph_particle {
     uint32_t id, set, role;
     double x[SPH_DIM], v[SPH_DIM], a[SPH_DIM]; /* m, m/s, m/s^2 (0 before the first forces) */
@@ -620,7 +625,7 @@ uint32_t sph_count(const sph_sim *sim); /* particles in the simulation, walls in
 #define sph_get SPH_NAME(get)
 sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
-/* ---- 9 books, probes, gauges -----------------------------------------------------------------------*/
+/* ---- 9 books, probes, gauges, inspection -----------------------------------------------------------------------*/
 /* Books of what happens at once, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
    the state, its digest and dumps follow from the list. `c`: the configuration. The first two are kept in every scene,
    the others where the scene asks for books. */
@@ -668,9 +673,9 @@ typedef struct sph_totals {
 #define sph_get_totals SPH_NAME(get_totals)
 void sph_get_totals(const sph_sim *sim, sph_totals *out);
 
-/* Values at a point x (m): Shepard-normalised sums over fluid and solid; walls and images behind faces are not in them.
-   `cover` = sum (m/rho) W is about 1 inside, 1/2 on a surface, on a wall or on a face of the domain, and falls to 0
-   outside; where it is below 1e-6 the values are 0. */
+/* Values at a point x (m): Shepard-normalised sums over fluid and solid and their images behind the faces of the domain;
+   walls are not in them. `cover` = sum (m/rho) W is about 1 inside and on faces that have images, 1/2 on a surface, on a
+   wall or on an open face, and falls to 0 outside; where it is below 1e-6 the values are 0. */
 typedef struct sph_probe_value {
     double cover, rho, p, v[SPH_DIM];
 } sph_probe_value;
@@ -679,10 +684,21 @@ sph_status sph_probe(const sph_sim *sim, const double *x, sph_probe_value *out);
 /* n points evenly from a to b, both included. */
 #define sph_probe_line SPH_NAME(probe_line)
 sph_status sph_probe_line(const sph_sim *sim, const double *a, const double *b, uint32_t n, sph_probe_value *out);
-/* Height of fluid and solid along `axis` through x: the highest place where cover passes 1/2; the domain's low end if
-   there is none. x[axis] does not matter, but must be finite like the others. */
+/* Three gauges along `axis` through a point (m), which must be finite; each sees fluid and solid, and images.
+   gauge    the highest place where cover passes 1/2, flying drops included; the domain's low end if there is none. x
+            along the axis does not matter.
+   surface  of the water that stands on `bed`: the first place, from half a spacing above it upwards, where cover falls
+            below 1/2; the bed itself where that half spacing is dry. Drops above do not count, nor what is above a
+            bubble.
+   depth    integral of cover along the whole line: the volume in the column over its cross-section, smoothed over a
+            support across the axis, drops included (beside a wall, where cover is less, it is less). x along the axis
+            does not matter. */
 #define sph_gauge SPH_NAME(gauge)
 sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height);
+#define sph_surface SPH_NAME(surface)
+sph_status sph_surface(const sph_sim *sim, const double *bed, uint32_t axis, double *height);
+#define sph_depth SPH_NAME(depth)
+sph_status sph_depth(const sph_sim *sim, const double *x, uint32_t axis, double *depth);
 /* Smallest and largest coordinate of fluid and solid along an axis, by particle centres. */
 #define sph_extent SPH_NAME(extent)
 void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high);
@@ -693,6 +709,33 @@ void sph_extent(const sph_sim *sim, uint32_t axis, double *low, double *high);
 sph_status sph_kernel_value(uint32_t kernel, double r, double h, double *w, double *dw);
 #define sph_kernel_support SPH_NAME(kernel_support)
 double sph_kernel_support(uint32_t kernel);
+
+/* What looks wrong in a filled simulation, though it is allowed: X(name, text), and what count, value and limit are. */
+#define SPH_FINDING_LIST(X)                                                                                           \
+    X(COINCIDENT, "particles nearer to another than 0.3 spacings")    /* particles; least distance, 0.3 dx (m) */     \
+    X(IN_WALL, "fluid or solid inside a wall")                        /* particles; largest depth, 0 (m) */           \
+    X(SLOW_SOUND, "sound slower than 10 sqrt(g H), H the height that fluid may fall") /* sets; slowest, that (m/s) */ \
+    X(FAST, "particles faster than a tenth of the sound speed of their set") /* particles; largest v/c, 0.1 */        \
+    X(EMPTY_SET, "sets of fluid or solid without particles")          /* sets; 0, 1 */                                \
+    X(SPARE, "the capacity is more than twice the particles")         /* max_particles; particles, half of it */
+enum {
+#define SPH_FINDING_ENUM(name, text) SPH_FINDING_##name,
+    SPH_FINDING_LIST(SPH_FINDING_ENUM)
+#undef SPH_FINDING_ENUM
+        SPH_FINDINGS
+};
+typedef struct sph_finding {
+    uint32_t kind; /* SPH_FINDING_... */
+    const char *text;
+    uint32_t count;
+    double value, limit;
+    uint32_t particle, other; /* the smallest id that is concerned, and the one it coincides with; or SPH_NO_PARTICLE */
+    uint32_t set;             /* its set; of sets the first; or SPH_MAX_SETS */
+} sph_finding;
+/* Calls fn once for each kind that there is, in the order of the list; to be called when all was added, or between any
+   steps. Changes nothing. Periodic faces are looked across. Returns BAD_STATE within a step. */
+#define sph_inspect SPH_NAME(inspect)
+sph_status sph_inspect(sph_sim *sim, void (*fn)(void *ctx, const sph_finding *finding), void *ctx);
 
 /* ---- 10 hash ---------------------------------------------------------------------------------------
    64 bits over every array and scalar that the next step reads. Equal on every machine. */

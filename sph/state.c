@@ -18,7 +18,19 @@ sph_status sph_error(sph_sim *sim, sph_status s, const char *what, const char *a
     if (!sim)
         return SPH_BAD_ARGUMENT;
     const char *pass = sim->begun && sim->pc < sim->passes ? sim->program[sim->pc]->name : "";
-    return sph_raise(&sim->report, &sim->cfg.port, &(sph_report){s, what, allowed, pass, value, particle});
+    sph_report *const r = &sim->report;
+    const sph_buffer *b = &sim->buf[sim->cur];
+    sph_tell(r, what, allowed, value, s);
+    r->pass = pass;
+    r->particle = particle;
+    for (uint32_t i = 0; SPH_WITH_DETAILS && i < sim->now.count; i++)
+        if (b->id[0][i] == particle && b->set[0][i] < sim->sets) {
+            r->set = b->set[0][i];
+            r->role = sim->set[r->set].role;
+        }
+    if (sim->cfg.port.fault)
+        sim->cfg.port.fault(sim->cfg.port.ctx, r);
+    return s;
 }
 
 static double damage_of(const sph_buffer *b, uint32_t i)

@@ -91,6 +91,7 @@ uint32_t sph_local_chunks(const sph_sim *sim);
 
 /* threads.c: a failure seen by a thread; the smallest particle id wins, so it does not depend on threads */
 #define sph_fail_note SPH_NAME(fail_note_)
+#define SPH_OUT_OF_FACE 64 /* as a status: out of the domain through face 2 axis + (0 low, 1 high) */
 void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value);
 /* starts what threads see afresh; adds up what they saw in a pass, and returns the failure, if there was one */
 #define sph_clear_threads SPH_NAME(clear_threads_)

@@ -57,7 +57,7 @@ int main(void)
     sph_sim *sim;
     sph_totals o;
     sph_usage u;
-    sph_report why = {SPH_OK, "", "", "", 0, SPH_NO_PARTICLE};
+    sph_report why = {SPH_OK, "", "", "", 0, SPH_NO_PARTICLE, 0, 0};
     sph_status st = make(&sim, &why);
     if (!st && sph_count(sim) != PARTICLES)
         st = SPH_BAD_STATE;

@@ -851,21 +851,25 @@ static void row_probe_line(void)
         b[0] = 1;
     }
 }
-static void row_gauge(void)
+typedef sph_status gauge(const sph_sim *sim, const double *x, uint32_t axis, double *height);
+static void row_any_gauge(gauge *call)
 {
     VECTOR(at, 0.5)
-    no_sim(sph_gauge(NULL, at, 0, OUT(double)));
-    no_sim(sph_gauge(bed.sim, NULL, 0, OUT(double)));
-    no_sim(sph_gauge(bed.sim, at, 0, NULL));
+    no_sim(call(NULL, at, 0, OUT(double)));
+    no_sim(call(bed.sim, NULL, 0, OUT(double)));
+    no_sim(call(bed.sim, at, 0, NULL));
     EACH_WORD(w)
-        with_status(sph_gauge(bed.sim, at, w, OUT(double)), w < SPH_DIM ? SPH_OK : SPH_BAD_ARGUMENT);
+        with_status(call(bed.sim, at, w, OUT(double)), w < SPH_DIM ? SPH_OK : SPH_BAD_ARGUMENT);
     EACH_NUMBER(x)
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             at[k] = x;
-            with_status(sph_gauge(bed.sim, at, SPH_DIM - 1, OUT(double)), finite(x) ? SPH_OK : SPH_BAD_ARGUMENT);
+            with_status(call(bed.sim, at, SPH_DIM - 1, OUT(double)), finite(x) ? SPH_OK : SPH_BAD_ARGUMENT);
             at[k] = 0.5;
         }
 }
+static void row_gauge(void) { row_any_gauge(sph_gauge); }
+static void row_surface(void) { row_any_gauge(sph_surface); }
+static void row_depth(void) { row_any_gauge(sph_depth); }
 /* where a quarter of a spacing is less than the last digit of a coordinate, the search for the surface still ends */
 static void a_gauge_far_from_the_origin_ends(void **state)
 {
@@ -885,6 +889,17 @@ static void a_gauge_far_from_the_origin_ends(void **state)
     assert_true(h >= 1e15 && h <= 1e15 + 8);
 }
 
+static void no_finding(void *ctx, const sph_finding *f)
+{
+    (void)ctx;
+    assert_true(f->kind < SPH_FINDINGS && f->count > 0 && f->text[0]);
+}
+static void row_inspect(void)
+{
+    no_sim(sph_inspect(NULL, no_finding, NULL));
+    if_idle(sph_inspect(bed.sim, NULL, NULL), SPH_BAD_ARGUMENT);
+    if_idle(sph_inspect(bed.sim, no_finding, NULL), SPH_OK);
+}
 static void row_extent(void)
 {
     double low = 7, high = 7;
@@ -991,6 +1006,7 @@ static const row rows[] = {
     ROW(add_wall_box),
     ROW(remove_wall), ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel),
     ROW(get_step), ROW(time), ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge),
+    ROW(surface), ROW(depth), ROW(inspect),
     ROW(extent), ROW(kernel_value),
     ROW(kernel_support), ROW(hash), ROW(dump), ROW(restore),
 };

@@ -134,6 +134,56 @@ static sph_sim *leaver(uint32_t policy, double v0)
     return sim;
 }
 
+/* the report names axis, face, set and role of who leaves: fluid, or a wall that is driven out */
+static void drive_out(void *ctx, double t, double *x, double *v)
+{
+    const double *way = ctx;
+    for (int k = 0; k < SPH_DIM; k++) {
+        x[k] = way[k] * t;
+        v[k] = way[k];
+    }
+}
+static void who_leaves_is_named_with_its_face(void **state)
+{
+    static const char *const axes[] = {"x beyond the low", "x beyond the high", "y beyond the low", "y beyond the high",
+                                       "z beyond the low", "z beyond the high"};
+    (void)state;
+    for (uint32_t which = 0; which < 4 * SPH_DIM; which++) {
+        const uint32_t face = which / 2 % (2 * SPH_DIM), axis = face / 2, wall = which % 2;
+        sph_config c = open_config(1, 0.1);
+        double x[SPH_DIM], v[SPH_DIM] = {0}, lo[SPH_DIM], hi[SPH_DIM];
+        uint32_t set, other, group;
+        c.integrator = which / (4 * SPH_DIM) ? SPH_RUNGE_KUTTA : SPH_PREDICTOR_CORRECTOR;
+        c.dt = 1e-3;
+        for (int k = 0; k < SPH_DIM; k++)
+            x[k] = 0.5, lo[k] = 0.3, hi[k] = 0.7;
+        sph_sim *sim = new_sim(&c);
+        sph_wall w = sph_wall_default();
+        must(sim, sph_add_fluid(sim, NULL, &other));
+        must(sim, sph_add_particle(sim, other, x, NULL, 0, NULL));
+        must(sim, sph_add_fluid(sim, NULL, &set));
+        v[axis] = face % 2 ? 30 : -30;
+        x[axis] = face % 2 ? c.hi[axis] - 0.05 : c.lo[axis] + 0.05;
+        w.motion = drive_out;
+        w.motion_ctx = v;
+        if (wall)
+            must(sim, sph_add_wall_box(sim, &w, lo, hi, 1u << face, true, &group));
+        else
+            must(sim, sph_add_particle(sim, set, x, v, 0, NULL));
+        sph_status st = SPH_OK;
+        for (int k = 0; k < 200 && st == SPH_OK; k++)
+            st = sph_step(sim);
+        const sph_report *r = sph_last(sim);
+        assert_int_equal(st, SPH_OUT_OF_DOMAIN);
+        if (strncmp(r->what, axes[face], strlen(axes[face])) != 0)
+            fail_msg("face %u: %s", face, r->what);
+        assert_int_equal(r->role, wall ? SPH_ROLE_GHOST : SPH_ROLE_FLUID);
+        assert_int_equal(r->set, wall ? 2 : 1);
+        assert_true(r->value >= 0 && r->value <= 0.03);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
 static void leaving_the_domain_fails_or_removes(void **state)
 {
     (void)state;
@@ -279,6 +329,7 @@ static void exhausted_capacities_are_refused_whole(void **state)
     must(sim, sph_add_fluid(sim, NULL, &set));
     uint64_t before = sph_hash(sim);
     assert_int_equal(sph_add_box(sim, set, lo, hi, NULL), SPH_TOO_MANY_PARTICLES);
+    close_to(sph_last(sim)->value, total, 0); /* what is needed */
     assert_int_equal(sph_count(sim), 0);
     assert_true(sph_hash(sim) == before);
     hi[0] -= DX;
@@ -286,13 +337,31 @@ static void exhausted_capacities_are_refused_whole(void **state)
     for (uint32_t k = sph_count(sim); k < total - 1; k++)
         must(sim, sph_add_particle(sim, set, x, NULL, 0, NULL));
     assert_int_equal(sph_add_particle(sim, set, x, NULL, 0, NULL), SPH_TOO_MANY_PARTICLES);
+    close_to(sph_last(sim)->value, total, 0);
     sph_wall w = sph_wall_default();
     hi[0] = N * DX;
     assert_int_equal(sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, &group), SPH_TOO_MANY_PARTICLES);
+    close_to(sph_last(sim)->value, total - 1 + 3 * total / N, 0); /* three layers of one face */
     assert_int_equal(sph_count(sim), total - 1);
     while (set + 1 < SPH_MAX_SETS)
         must(sim, sph_add_fluid(sim, NULL, &set));
     assert_int_equal(sph_add_fluid(sim, NULL, &set), SPH_TOO_MANY_SETS);
+}
+
+/* a slice that ends with the first forces has begun the step: nothing may be changed until it is done or given up */
+static void the_first_forces_in_slices_begin_the_step(void **state)
+{
+    (void)state;
+    sph_sim *sim = leaver(SPH_REMOVE, 0.1), *whole = leaver(SPH_REMOVE, 0.1);
+    sph_config c = sph_config_default();
+    const uint64_t much = 1u << 30;
+    assert_int_equal(sph_step_slice(sim, much), SPH_NOT_DONE);
+    assert_int_equal(sph_reconfigure(sim, &c), SPH_BAD_STATE);
+    assert_int_equal(sph_ready(sim), SPH_BAD_STATE);
+    assert_int_equal(sph_step(sim), SPH_BAD_STATE);
+    assert_int_equal(sph_step_slice(sim, much), SPH_OK);
+    must(whole, sph_step(whole));
+    assert_true(sph_hash(sim) == sph_hash(whole));
 }
 
 /* a particle thrown at a wall that does not hold it: boundary force of strength next to nothing */
@@ -399,6 +468,8 @@ int main(void)
         subject(a_nan_in_the_middle_of_a_run_is_caught_and_the_run_goes_on),
         subject(the_named_particle_does_not_depend_on_threads),
         subject(leaving_the_domain_fails_or_removes),
+        subject(who_leaves_is_named_with_its_face),
+        subject(the_first_forces_in_slices_begin_the_step),
         subject(the_mass_that_left_is_that_of_the_particles),
         subject(too_large_a_step_is_refused),
         subject(a_collapsed_step_is_refused),

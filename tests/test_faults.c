@@ -395,7 +395,7 @@ static void a_fault_is_told_the_same_by_threads_in_any_order(void **state)
     const sph_port port = shuffle_port(&order, 3);
     (void)state;
     for (const fault_case *f = cases; f < cases + CASES; f++) {
-        sph_report alone[64] = {{SPH_OK, "", "", "", 0, SPH_NO_PARTICLE}};
+        sph_report alone[64] = {{SPH_OK, "", "", "", 0, SPH_NO_PARTICLE, 0, 0}};
         for (int turn = 0; turn < 2; turn++) {
             uint32_t n = 0;
             make_bed(f, turn ? &port : NULL);

@@ -21,7 +21,7 @@ static sph_config small(void)
 
 static void refused(const sph_config *c, const char *what, const char *allowed, double value)
 {
-    sph_report r = {SPH_OK, "", "", "", 0, 0};
+    sph_report r = {SPH_OK, "", "", "", 0, 0, 0, 0};
     assert_int_equal(sph_config_check(c, &r), SPH_BAD_CONFIG);
     assert_string_equal(r.what, what);
     assert_string_equal(r.allowed, allowed);
@@ -190,7 +190,7 @@ static void the_check_and_init_agree(void **state)
     for (uint32_t i = 0; i < sizeof length / sizeof *length; i++)
         for (uint32_t face = SPH_OPEN; face <= SPH_SYMMETRY; face++) {
             sph_config c = small();
-            sph_report said = {SPH_OK, "", "", "", 0, 0}, done = said;
+            sph_report said = {SPH_OK, "", "", "", 0, 0, 0, 0}, done = said;
             sph_sim *sim = NULL;
             c.hi[0] = length[i];
             c.face[0][0] = c.face[0][1] = face;

@@ -61,7 +61,7 @@ static void poison(void *ctx, double t, const double *x, const double *v, double
 /* what the pool says about a failing step of a case is what one thread says */
 static void fail_with_the_pool(const bits_case *b, port_posix *at)
 {
-    sph_report alone = {SPH_OK, "", "", "", 0, 0};
+    sph_report alone = {SPH_OK, "", "", "", 0, 0, 0, 0};
     for (int turn = 0; turn < 2; turn++) {
         port_posix *const pool = turn ? at : NULL;
         sph_sim *sim = make(b, pool);

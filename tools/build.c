@@ -35,7 +35,7 @@ static void close_sim(build_sim *s)
 static build_sim *no_memory(build_sim *s, sph_report *report, double bytes)
 {
     *report = (sph_report){SPH_ARENA_TOO_SMALL, "memory", "less: the machine does not give so many bytes", "", bytes,
-                           SPH_NO_PARTICLE};
+                           SPH_NO_PARTICLE, SPH_MAX_SETS, SPH_ROLES};
     close_sim(s);
     return NULL;
 }
@@ -121,7 +121,13 @@ static sph_status restore(build_sim *s, const double *p, bool changed, sph_sourc
     return st ? st : scene_between(s->sim, s->p, &s->cfg);
 }
 
+static sph_status inspect(build_sim *s, void (*fn)(void *ctx, const sph_finding *finding), void *ctx)
+{
+    return sph_inspect(s->sim, fn, ctx);
+}
+
 #define build_table SPH_NAME(build_table)
 extern const build build_table;
 const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,  time_of, history, totals,
-                           info,    usage,      count,     hash,       last,      arena, dump, restore};
+                           info,    usage,      count,     hash,       last,      arena, dump, restore,
+                           inspect};

@@ -289,6 +289,8 @@ static bool open_sim(run *r)
     return r->sim != NULL;
 }
 
+static const char *const role_names[SPH_ROLES] = {"fluid", "wall", "boundary wall", "solid"};
+
 static int step_failed(run *r, sph_status st)
 {
     const sph_report *why = r->b->last(r->sim);
@@ -297,7 +299,9 @@ static int step_failed(run *r, sph_status st)
     progress(r, true);
     host_no("step %llu failed: %s", (unsigned long long)info.step + 1, sph_status_text(st));
     if (why->particle != SPH_NO_PARTICLE)
-        fprintf(stderr, "  particle %u\n", why->particle);
+        fprintf(stderr, "  particle %u%s", why->particle, why->role < SPH_ROLES ? "" : "\n");
+    if (why->role < SPH_ROLES)
+        fprintf(stderr, " of set %u (%s)\n", why->set, role_names[why->role]);
     fprintf(stderr, "  quantity %s, value %g%s%s\n  pass     %s\n", *why->what ? why->what : "-", why->value,
             *why->allowed ? ", allowed: " : "", why->allowed, *why->pass ? why->pass : "-");
     run_write_state(r, "failed");
@@ -351,6 +355,22 @@ static void catch_interrupt(void)
     sigaction(SIGTERM, &a, NULL);
 }
 
+/* what looks wrong in the scene as it was built */
+static void say_finding(void *ctx, const sph_finding *f)
+{
+    (void)ctx;
+    if (f->kind == SPH_FINDING_SPARE) /* scenes leave room on purpose */
+        return;
+    fprintf(stderr, "note: %u %s: %g (limit %g)", f->count, f->text, f->value, f->limit);
+    if (f->particle != SPH_NO_PARTICLE)
+        fprintf(stderr, ", particle %u", f->particle);
+    if (f->other != SPH_NO_PARTICLE)
+        fprintf(stderr, " and %u", f->other);
+    if (f->set < SPH_MAX_SETS)
+        fprintf(stderr, ", set %u", f->set);
+    fputc('\n', stderr);
+}
+
 /* when rows are due; HOST_FINE, or HOST_USAGE after a message */
 static int plan(run *r)
 {
@@ -374,6 +394,8 @@ static int run_scene(run *r, bool *begun)
     bool skip;
     if (!run_open_files(r) || !open_sim(r) || (r->restore && !run_restore(r)))
         return HOST_NO;
+    if (!r->restore)
+        r->b->inspect(r->sim, say_finding, NULL);
     int code = plan(r);
     if (code)
         return code;

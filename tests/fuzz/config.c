@@ -128,7 +128,7 @@ void SPH_NAME(fuzz_config)(const unsigned char *data, size_t n);
 void SPH_NAME(fuzz_config)(const unsigned char *data, size_t n)
 {
     input in = {data, n};
-    sph_report r = {SPH_OK, "", "", "", 0, 0};
+    sph_report r = {SPH_OK, "", "", "", 0, 0, 0, 0};
     const sph_config c = make_config(&in);
     const sph_status st = sph_config_check(&c, &r);
     const size_t bytes = sph_arena_bytes(&c);
