@@ -87,6 +87,7 @@ port_obj  := $(PORT:%.c=$(BUILD)/obj/%.o)
 tools_obj := $(TOOLS:%.c=$(BUILD)/obj/%.o)
 build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$(b)/tools/build.o))
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
+tables_obj := $(BUILD)/obj/tables.o
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
@@ -130,7 +131,17 @@ $(BUILD)/obj/%.o: %.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(ALL_CFLAGS) $(HOST_CFLAGS) $(PNG_CFLAGS) $(THREADS) -MMD -MP -c $< -o $@
 
-$(BUILD)/sph: $(tools_obj) $(build_obj) $(scene_obj) $(port_obj) $(LIBS)
+# the tables of the lab, for sph advise wherever it is called
+LAB_TABLES := $(sort $(wildcard tests/lab/*.csv))
+$(BUILD)/tables.c: tools/tables.awk $(LAB_TABLES)
+	@mkdir -p $(@D)
+	$(Q)awk -f tools/tables.awk $(LAB_TABLES) </dev/null >$@
+$(tables_obj): $(BUILD)/tables.c
+	$(say) cc $<
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(ALL_CFLAGS) $(HOST_CFLAGS) -MMD -MP -c $< -o $@
+
+$(BUILD)/sph: $(tools_obj) $(tables_obj) $(build_obj) $(scene_obj) $(port_obj) $(LIBS)
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $(THREADS) $^ -o $@ $(PNG_LIBS) -lm
 
@@ -189,7 +200,7 @@ atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_ten
 atlas_libs := $(BUILD)/libsph1d.a $(BUILD)/libsph2f.a
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
 
-command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o),$(tools_obj))
+command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o),$(tools_obj)) $(tables_obj)
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
 
 # tests with a kernel of their own, whose lists are longer by the lines of tests/extra_*.h
