@@ -222,7 +222,8 @@ static void append(vtu *v, size_t bytes)
 
 static void put_text_value(const vtu *v, const char *type, double x)
 {
-    fprintf(v->xml, !strcmp(type, "Float64") ? "%.17g\n" : !strcmp(type, "Float32") ? "%.9g\n" : "%.0f\n", x);
+    const bool single = !strcmp(type, "Float32");
+    fprintf(v->xml, single ? "%.9g\n" : !strcmp(type, "Float64") ? "%.17g\n" : "%.0f\n", single ? (double)(float)x : x);
 }
 
 static void store_value(unsigned char *p, const char *type, double x)
