@@ -91,7 +91,7 @@ tables_obj := $(BUILD)/obj/tables.o
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
-.PHONY: count house gates gates-quick
+.PHONY: count house gates gates-quick tool-test
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
@@ -239,9 +239,14 @@ test:
 	$(Q)$(MAKE) --no-print-directory tests CFLAGS="$(CFLAGS) -DSPH_ASSERTS=1"
 	$(Q)EXEC="$(EXEC)" sh tests/run.sh $(BUILD) $(test_bins)
 	$(Q)sh tests/entries.sh
+	$(Q)$(MAKE) --no-print-directory tool-test
 	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/bits.sh --quick
 
 tests: $(test_bins)
+
+# the tool as its users meet it: full disks, links, broken dumps, names with anything in them
+tool-test: $(BUILD)/sph
+	$(Q)EXEC="$(EXEC)" $(PYTHON) tests/tool.py --tool $(BUILD)/sph
 
 # the golden runs in one program, for tests/bits.sh
 golden: $(BUILD)/golden
@@ -427,6 +432,7 @@ help:
 	'make            the tool $(BUILD)/sph and the libraries $(BUILD)/libsph{1,2,3}{f,d}.a' \
 	'make demo       a 2-D dam break: picture, dump and history (a C compiler and make are enough)' \
 	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
+	'make tool-test  the program $(BUILD)/sph alone, as its users meet it' \
 	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
 	'make knobs      every build knob off alone and in random sets: golden or refused -> $(BUILD)/knobs.csv' \
 	'make targets    the golden runs on every machine of port/targets.txt that has tools here  -> $(BUILD)/targets.csv' \

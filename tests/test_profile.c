@@ -200,7 +200,8 @@ static void an_ellipse_is_gone_round(void **state)
 }
 
 /* A linear field goes on outside of the particles it was made from: a corner at (1, 1), and places that only its three
-   last particles reach. Between -5 and 5 they must stay, as the particles do; the surface itself is still of order 1. */
+   last particles reach. There the mean holds, which stays in the range of the particles; the surface itself is still of
+   order 1. */
 static void nothing_is_extrapolated(void **state)
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {1, 1, 0};

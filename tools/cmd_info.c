@@ -10,7 +10,8 @@ static const char help[] =
     "usage: sph info DUMP...\n"
     "Prints what a dump holds: the records (scene, sets, groups, run, state) field by field with units, then its\n"
     "arrays with type, unit, count and range; then the notes of the\n"
-    "program that wrote it: scene, units, parameters. Units are the scene's where the notes name them. Every checksum is verified on the way.\n";
+    "program that wrote it: scene, units, parameters. Units are the scene's where the notes name them.\n"
+    "Every checksum is verified on the way.\n";
 
 static void print_value(const dump_file *d, const dump_section *s, const dump_member *m, uint64_t row)
 {

@@ -119,9 +119,18 @@ static int open_beside(output *o, mode_t mode)
     return fd;
 }
 
+/* A device or a pipe, or what is reached through /dev, as /dev/stdout is: another one may have it open and wait. */
 static bool is_device(const char *name, const struct stat *s, bool there)
 {
-    return !strncmp(name, "/dev/", 5) || (there && !S_ISREG(s->st_mode) && !S_ISDIR(s->st_mode));
+    char *path = copy(name, strlen(name)), *to;
+    bool device = there && !S_ISREG(s->st_mode) && !S_ISDIR(s->st_mode);
+    for (int k = 0; path && k < MOST_LINKS; k++, path = to) {
+        device = device || !strncmp(path, "/dev/", 5);
+        to = linked(path);
+        free(path);
+    }
+    free(path);
+    return device;
 }
 
 static bool open_file(output *o, const struct stat *s, bool there)
@@ -168,6 +177,17 @@ static bool gather(output *o)
     return o->f || fail(o, errno);
 }
 
+/* Standard output by another name shares its place in the file, so that neither writes over the other. */
+static int open_device(const char *name, const struct stat *s, bool there)
+{
+    struct stat out;
+    if (there && !fstat(STDOUT_FILENO, &out) && out.st_dev == s->st_dev && out.st_ino == s->st_ino) {
+        fflush(stdout);
+        return dup(STDOUT_FILENO);
+    }
+    return open(name, O_WRONLY | O_NOCTTY);
+}
+
 bool output_open(output *o, const char *option, const char *name)
 {
     struct stat s;
@@ -178,7 +198,7 @@ bool output_open(output *o, const char *option, const char *name)
     const bool there = stat(name, &s) == 0;
     bool fine;
     if (is_device(name, &s, there)) {
-        o->fd = open(name, O_WRONLY | O_NOCTTY);
+        o->fd = open_device(name, &s, there);
         fine = o->fd >= 0 || say(o, errno);
     } else
         fine = open_file(o, &s, there);
