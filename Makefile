@@ -246,7 +246,7 @@ tests: $(test_bins)
 
 # the tool as its users meet it: full disks, links, broken dumps, names with anything in them
 tool-test: $(BUILD)/sph
-	$(Q)EXEC="$(EXEC)" $(PYTHON) tests/tool.py --tool $(BUILD)/sph
+	$(Q)$(PYTHON) tests/tool.py --tool $(BUILD)/sph
 
 # the golden runs in one program, for tests/bits.sh
 golden: $(BUILD)/golden

@@ -440,6 +440,20 @@ def no_file_of_the_users_is_lost():
     assert not [f for f in files() if f.startswith(".sph")]
 
 
+def a_command_that_is_ended_leaves_nothing():
+    os.mkfifo("h.csv")  # nobody writes: the command waits with its output open
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        run = subprocess.Popen([TOOL, "history", "h.csv", "out=o.csv"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+        for _ in range(100):
+            if len(files()) > 1:
+                break
+            time.sleep(0.02)
+        assert len(files()) == 2
+        run.send_signal(number)
+        run.communicate(timeout=20)
+        assert run.returncode == -number and files() == ["h.csv"]
+
+
 def modes_of_files_are_kept():
     pathlib.Path("a.csv").write_text("old\n")
     os.chmod("a.csv", 0o640)
