@@ -87,10 +87,11 @@ port_obj  := $(PORT:%.c=$(BUILD)/obj/%.o)
 tools_obj := $(TOOLS:%.c=$(BUILD)/obj/%.o)
 build_obj := $(foreach b,$(BUILDS),$(if $(wildcard tools/build.c),$(BUILD)/obj/$(b)/tools/build.o))
 scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
+tables_obj := $(BUILD)/obj/tables.o
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
-.PHONY: count house gates gates-quick mutants
+.PHONY: count house gates gates-quick mutants tool-test
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
 .PHONY: restarts
@@ -132,7 +133,17 @@ $(BUILD)/obj/%.o: %.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(ALL_CFLAGS) $(HOST_CFLAGS) $(PNG_CFLAGS) $(THREADS) -MMD -MP -c $< -o $@
 
-$(BUILD)/sph: $(tools_obj) $(build_obj) $(scene_obj) $(port_obj) $(LIBS)
+# the tables of the lab, for sph advise wherever it is called
+LAB_TABLES := $(sort $(wildcard tests/lab/*.csv))
+$(BUILD)/tables.c: tools/tables.awk $(LAB_TABLES)
+	@mkdir -p $(@D)
+	$(Q)awk -f tools/tables.awk $(LAB_TABLES) </dev/null >$@
+$(tables_obj): $(BUILD)/tables.c
+	$(say) cc $<
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(ALL_CFLAGS) $(HOST_CFLAGS) -MMD -MP -c $< -o $@
+
+$(BUILD)/sph: $(tools_obj) $(tables_obj) $(build_obj) $(scene_obj) $(port_obj) $(LIBS)
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $(THREADS) $^ -o $@ $(PNG_LIBS) -lm
 
@@ -198,7 +209,7 @@ atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_ten
 atlas_libs := $(BUILD)/libsph1d.a $(BUILD)/libsph2f.a
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
 
-command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o),$(tools_obj))
+command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o),$(tools_obj)) $(tables_obj)
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
 
 # the oracle (tests/oracle): linked into its test, and a program for each build
@@ -263,9 +274,14 @@ test:
 	$(Q)$(MAKE) --no-print-directory tests CFLAGS="$(CFLAGS) -DSPH_ASSERTS=1"
 	$(Q)EXEC="$(EXEC)" sh tests/run.sh $(BUILD) $(test_bins)
 	$(Q)sh tests/entries.sh
+	$(Q)$(MAKE) --no-print-directory tool-test
 	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/bits.sh --quick
 
 tests: $(test_bins)
+
+# the tool as its users meet it: full disks, links, broken dumps, names with anything in them
+tool-test: $(BUILD)/sph
+	$(Q)$(PYTHON) tests/tool.py --tool $(BUILD)/sph
 
 # the golden runs in one program, for tests/bits.sh
 golden: $(BUILD)/golden
@@ -469,6 +485,7 @@ help:
 	'make            the tool $(BUILD)/sph and the libraries $(BUILD)/libsph{1,2,3}{f,d}.a' \
 	'make demo       a 2-D dam break: picture, dump and history (a C compiler and make are enough)' \
 	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
+	'make tool-test  the program $(BUILD)/sph alone, as its users meet it' \
 	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
 	'make knobs      every build knob off alone and in random sets: golden or refused -> $(BUILD)/knobs.csv' \
 	'make targets    the golden runs on every machine of port/targets.txt that has tools here  -> $(BUILD)/targets.csv' \

@@ -25,6 +25,10 @@
      order      scene, sets, materials (with solids), groups, run, state (records); arrays; "end": one u32, the CRC-32
                 of the CRCs of the preamble and of header and payload of every section before it, in order
 
+     notes      behind the end a host may put a section of its own, which the kernel neither writes nor reads and which
+                is not among the bytes and sections of the preamble: name "notes", unit "text", u8, its number the one
+                after that of "end". The tool writes lines KEY=VALUE: scene, parameters, units (tools/dumpfile.h)
+
    CRC-32 is that of IEEE 802.3 (zlib). Positions are integers, also in a reduced dump: x = lo + quantum * pos. `rho`
    is the relative density excess (density - rho0)/rho0 with the rho0 of the particle's set; set 255 is a particle that
    is gone. Pressure from it: scene.eos and sets.pressure_scale (see SPH_TAIT in sph.h). A wall particle moves with

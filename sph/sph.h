@@ -765,7 +765,8 @@ sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ct
    sets and walls, in the same order; it may have run since. Gravity, damping and the fixed dt become those of the
    dump (sph_reconfigure may change them again); hooks and threads stay those of the simulation. Reads the stream once,
    into the spare half of the arena, and commits only when every checksum and value was seen to be right; on any
-   failure the simulation is as it was. A source that returns false is taken as the stream's end.
+   failure the simulation is as it was. A source that returns false is taken as the stream's end. Not
+   a byte behind the dump is read: what a host puts there (notes on its scene, as the tool does) is its own.
    Fails: SPH_BAD_STATE (a step is under way), SPH_DUMP_TRUNCATED, SPH_DUMP_CORRUPT, SPH_DUMP_FOREIGN, SPH_DUMP_NEWER,
    SPH_DUMP_MISMATCH (a reduced dump, or one of another configuration, set-up or capacity). */
 #define sph_restore SPH_NAME(restore)

@@ -199,6 +199,96 @@ static void an_ellipse_is_gone_round(void **state)
     table_close(&t);
 }
 
+/* A linear field goes on outside of the particles it was made from: a corner at (1, 1), and places that only its three
+   last particles reach. There the mean holds, which stays in the range of the particles; the surface itself is still of
+   order 1. */
+static void nothing_is_extrapolated(void **state)
+{
+    const double lo[3] = {0, 0, 0}, hi[3] = {1, 1, 0};
+    table t;
+    synth *s = synth_new(2, 0.05, 3, 2, 0);
+    (void)state;
+    synth_box(s, 0, lo, hi);
+    for (uint32_t i = 0; i < s->n; i++)
+        s->part[i].v[0] = (s->part[i].x[0] + s->part[i].x[1] - 1.95) / 0.05 * 5; /* 0 at the last, -5 beside it */
+    synth_write(s, dump);
+    assert_int_equal(profile("field=velocity_x", "from=1,1", "to=1.08,1.08", "n=33"), 0);
+    assert_true(table_open(&t, out));
+    assert_true(t.rows > 10);
+    close_to(cell(&t, 0, "order"), 1, 0);
+    close_to(cell(&t, 0, "velocity_x"), 5, 1e-6); /* the surface, half a spacing out on both axes */
+    for (uint32_t r = 0; r < t.rows; r++) {
+        const double v = cell(&t, r, "velocity_x"), by = cell(&t, r, "x_m") - 1;
+        if (cell(&t, r, "particles") <= 3 || by > 0.026) {
+            close_to(cell(&t, r, "order"), 0, 0);
+            assert_true(v <= 1e-6 && v > -11);
+        }
+    }
+    table_close(&t);
+    /* three particles alone, which a linear field fits whatever they say */
+    s->n = 3;
+    for (uint32_t i = 0; i < 3; i++) {
+        s->part[i].x[0] = 0.5 + (i == 1 ? 0.05 : 0);
+        s->part[i].x[1] = 0.5 + (i == 2 ? 0.05 : 0);
+        s->part[i].v[0] = i == 0 ? 1 : -1;
+    }
+    synth_write(s, dump);
+    assert_int_equal(profile("field=velocity_x", "from=0.45,0.45", "to=0.55,0.55", "n=9"), 0);
+    assert_true(table_open(&t, out));
+    for (uint32_t r = 0; r < t.rows; r++) {
+        close_to(cell(&t, r, "order"), 0, 0);
+        assert_true(fabs(cell(&t, r, "velocity_x")) <= 1);
+    }
+    table_close(&t);
+}
+
+/* A quarter of a body with mirror planes x = 0 and y = 0: profiles are those of the whole body, up to the planes and on
+   them, in the corner too. */
+static void mirror_planes_are_seen(void **state)
+{
+    static const char *const fields = "field=density,velocity_x,velocity_y,stress_xx,stress_xy,x,displacement_x";
+    static const char *const names[] = {"density", "velocity_x", "velocity_y", "stress_xx", "stress_xy", "x",
+                                        "displacement_x", "particles", "order"};
+    static const char *const orders[] = {"order=0", "order=1"};
+    char reference[120];
+    double wanted[21][9];
+    table t;
+    (void)state;
+    snprintf(reference, sizeof reference, "reference=%s", before);
+    for (int o = 0; o < 2; o++)
+        for (int whole = 1; whole >= 0; whole--) {
+            const double lo[3] = {whole ? -1 : 0, whole ? -1 : 0, 0}, hi[3] = {1, 1, 0};
+            synth *s = synth_new(2, 0.05, 3, 2, 0);
+            s->with_stress = true;
+            for (uint32_t k = 0; k < 2; k++)
+                s->lo[k] = whole ? -3 : 0;
+            s->face[0] = s->face[2] = whole ? SPH_OPEN : SPH_SYMMETRY;
+            synth_box(s, 0, lo, hi);
+            synth_write(s, before);
+            for (uint32_t i = 0; i < s->n; i++) {
+                const double x = s->part[i].x[0], y = s->part[i].x[1];
+                s->part[i].rho = 0.1 * (1 + x * x - y * y);
+                s->part[i].v[0] = x * (3 + y * y);
+                s->part[i].v[1] = -y * (1 + x * x);
+                s->part[i].stress[0] = 7 + x * x;
+                s->part[i].stress[2] = x * y;
+                s->part[i].x[0] += 0.01 * x;
+            }
+            synth_write(s, dump);
+            assert_int_equal(profile(fields, reference, "from=0,0", "to=0.2,0.1", "n=21", orders[o]), 0);
+            assert_true(table_open(&t, out));
+            assert_int_equal(t.rows, 21);
+            for (uint32_t r = 0; r < t.rows; r++)
+                for (int c = 0; c < 9; c++) {
+                    const double v = cell(&t, r, names[c]);
+                    if (!whole)
+                        close_to(v, wanted[r][c], 1e-6 * fmax(1, fabs(v)));
+                    wanted[r][c] = v;
+                }
+            table_close(&t);
+        }
+}
+
 /* solids count and a gas beside them does not, unless asked for */
 static void the_body_is_not_mixed_with_what_is_beside_it(void **state)
 {
@@ -259,6 +349,8 @@ int main(void)
         test(displacement_is_from_the_reference),
         test(an_ellipse_is_gone_round),
         test(the_body_is_not_mixed_with_what_is_beside_it),
+        test(nothing_is_extrapolated),
+        test(mirror_planes_are_seen),
         test(bad_input_is_refused),
     };
     return run_subjects("profile", tests);

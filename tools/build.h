@@ -51,7 +51,8 @@ typedef struct build {
     const sph_report *(*last)(const build_sim *s);
     void (*arena)(const build_sim *s, void (*fn)(void *ctx, const char *name, size_t bytes), void *ctx);
     sph_status (*dump)(const build_sim *s, uint32_t fields, sph_sink sink, void *ctx);
-    /* Restores; p has the options that may change (build_free_name) as they shall be, changed: not all as in the dump. */
+    /* Restores; p has the options that may change (build_free_name) as they shall be, changed: not all are as in the
+       dump. */
     sph_status (*restore)(build_sim *s, const double *p, bool changed, sph_source source, void *ctx);
     sph_status (*inspect)(build_sim *s, void (*fn)(void *ctx, const sph_finding *finding), void *ctx);
 } build;

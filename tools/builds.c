@@ -142,7 +142,8 @@ bool build_of_books(const char *column)
     static const char *const list[] = {"dissipated", "diffused", "wall_work", "work", "energy", "error_of_energy"};
     for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
         const size_t n = strlen(list[k]);
-        if (!strncmp(column, list[k], n) && (!column[n] || !strncmp(column + n, "_J", 2) || !strncmp(column + n, "_K", 2)))
+        const char *const unit = column + n;
+        if (!strncmp(column, list[k], n) && (!*unit || !strncmp(unit, "_J", 2) || !strncmp(unit, "_K", 2)))
             return true;
     }
     return false;

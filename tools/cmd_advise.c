@@ -10,8 +10,9 @@
 
 static const char help[] =
     "usage: sph advise SCENE error=2% [precision=float|double] [cost=instructions|pairs] [study=NAME]\n"
-    "                  [step=controlled|any] [tables=tests/lab]\n"
-    "The cheapest run known of a scene whose error is at most that, from the tables of measured runs in a folder: its\n"
+    "                  [step=controlled|any] [tables=FOLDER]\n"
+    "The cheapest run known of a scene whose error is at most that, from the tables of measured runs (of tests/lab as\n"
+    "they were when the program was built, or those in a folder): its\n"
     "command, error, cost, what it rests on, the next cheaper run, and the best one known.\n"
     "  error=      with the unit of the study's norm, as 2% or 0.1cm\n"
     "  precision=  only runs in it; both unless given\n"
@@ -302,7 +303,7 @@ static void put_rest(const advice *a)
 
 static int no_study(const advice *a, const char *folder)
 {
-    host_no("no study of %s in %s: what it costs is not known", a->scene, folder);
+    host_no("no study of %s in %s: what it costs is not known", a->scene, folder ? folder : "the tables built in");
     if (a->tables.scenes)
         fputs("studied:", stderr);
     for (uint32_t i = 0; i < a->tables.scenes; i++)
@@ -329,7 +330,7 @@ static int advise(advice *a, const char *folder)
     if (!a->tables.count)
         return no_study(a, folder);
     if (a->tables.count > MOST_STUDIES)
-        return host_no("%s: more than %d studies of %s", folder, MOST_STUDIES, a->scene);
+        return host_no("%s: more than %d studies of %s", folder ? folder : "tables", MOST_STUDIES, a->scene);
     for (uint32_t s = 0; s < a->tables.count; s++)
         if (counts(a, s)) {
             mask |= UINT32_C(1) << s;
@@ -401,7 +402,7 @@ int cmd_advise(int argc, char **argv)
         return HOST_USAGE;
     if (words != 1)
         return host_usage("%s", words ? "one scene at a time" : "which scene?");
-    const char *const folder = host_option(argc, argv, "tables") ? host_option(argc, argv, "tables") : "tests/lab";
+    const char *const folder = host_option(argc, argv, "tables");
     a.scene = argv[1];
     if (!take_options(&a, argc, argv))
         return HOST_USAGE;

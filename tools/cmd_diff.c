@@ -64,7 +64,8 @@ static uint32_t match(dump_id_at *a, uint32_t na, dump_id_at *b, uint32_t nb)
     return n;
 }
 
-static int compare_array(const dump_file *d, const dump_section *a, const dump_section *b, const dump_id_at *ia, const dump_id_at *ib, uint32_t n)
+static int compare_array(const dump_file *d, const dump_section *a, const dump_section *b, const dump_id_at *ia,
+                         const dump_id_at *ib, uint32_t n)
 {
     uint64_t differ = 0;
     uint32_t first = 0, comp = 0, worst_id = 0;
@@ -88,12 +89,14 @@ static int compare_array(const dump_file *d, const dump_section *a, const dump_s
     printf("%s: first at component %u of particle %u: %.17g, %.17g; %llu of %llu values differ, at most by %g %s "
            "(particle %u)\n",
            a->name, comp, ia[first].id, dump_value(a, comp, ia[first].at), dump_value(b, comp, ib[first].at),
-           (unsigned long long)differ, (unsigned long long)n * a->comps, worst, strcmp(a->unit, "1") ? dump_unit(d, a->unit) : "",
+           (unsigned long long)differ, (unsigned long long)n * a->comps, worst,
+           strcmp(a->unit, "1") ? dump_unit(d, a->unit) : "",
            worst_id);
     return 1;
 }
 
-static int compare_sections(const dump_file *a, const dump_file *b, const dump_id_at *ia, const dump_id_at *ib, uint32_t n)
+static int compare_sections(const dump_file *a, const dump_file *b, const dump_id_at *ia, const dump_id_at *ib,
+                            uint32_t n)
 {
     int differ = 0;
     for (uint32_t k = 0; k < a->sections; k++) {

@@ -16,8 +16,8 @@ static const char help[] =
     "  out=NAME.csv   one dump as a table, a row for each particle in order of the arrays\n"
     "  encoding=      of .vtu: binary (appended; packed where the program was built with zlib; default) or ascii\n"
     "  walls=         no leaves wall particles out (default yes)\n"
-    "Numbers of runs in float are Float32. Arrays carry their units in their names: velocity_m_per_s, pressure_Pa, ...\n"
-    "Fields that a reduced dump does not carry are left out. The sets' names and what roles mean are in the field data.\n";
+    "Numbers of runs in float are Float32. Arrays carry their units in their names: velocity_m_per_s, pressure_Pa ...\n"
+    "Fields that a reduced dump does not carry are left out. Names of sets and of roles are in the field data.\n";
 
 /* ---- CSV ---- */
 

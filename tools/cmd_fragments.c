@@ -238,8 +238,8 @@ static void print_pieces(const dump_file *d, const body *b, const options *o, co
         printf("no array damage: nothing counts as broken\n");
     if (p->n)
         printf("masses in %s, lengths in %s\n%5s %9s %8s %4s %12s %8s %11s %11s %11s %11s %11s\n", dump_unit(d, "kg"),
-               dump_unit(d, "m"), "piece", "particles", "first id", "set", "mass", "share", "length", "diameter", "edge x",
-               "edge y", "edge z");
+               dump_unit(d, "m"), "piece", "particles", "first id", "set", "mass", "share", "length", "diameter",
+               "edge x", "edge y", "edge z");
     for (uint32_t i = 0; i < p->n; i++) {
         const piece *q = &p->list[i];
         length += q->length / p->n;
@@ -270,8 +270,8 @@ static void write_pieces(const dump_file *d, const body *b, const pieces *p, FIL
 {
     const char *const m = dump_unit(d, "m");
     fprintf(f,
-            "# fragments of %s, t = %.17g %s, %u particles broken\npiece,particles,first_id,set,mass_%s,share,length_%s,"
-            "diameter_%s,edge_x_%s,edge_y_%s,edge_z_%s,x_%s,y_%s,z_%s\n",
+            "# fragments of %s, t = %.17g %s, %u particles broken\npiece,particles,first_id,set,mass_%s,share,"
+            "length_%s,diameter_%s,edge_x_%s,edge_y_%s,edge_z_%s,x_%s,y_%s,z_%s\n",
             d->name, d->time, dump_unit(d, "s"), p->broken, dump_unit(d, "kg"), m, m, m, m, m, m, m, m);
     for (uint32_t i = 0; i < p->n; i++) {
         const piece *q = &p->list[i];
@@ -346,8 +346,8 @@ static void show_histogram(const sizes *s, const options *o, FILE *f)
     put_histogram(stdout, s, o, "%12.6g %12.6g %8u %10.5f %12.6g", " %11.6g");
     if (!f)
         return;
-    fprintf(f, "# sizes by %s of %u pieces\nfrom_%s,to_%s,pieces,share_of_mass,density_per_%s", o->by_length ? "length" :
-            "diameter", s->n, s->metre, s->metre, s->metre);
+    fprintf(f, "# sizes by %s of %u pieces\nfrom_%s,to_%s,pieces,share_of_mass,density_per_%s",
+            o->by_length ? "length" : "diameter", s->n, s->metre, s->metre, s->metre);
     if (o->has_theory)
         fprintf(f, ",gradykipp_per_%s", s->metre);
     fputc('\n', f);

@@ -10,7 +10,8 @@ static const char help[] =
     "usage: sph info DUMP...\n"
     "Prints what a dump holds: the records (scene, sets, groups, run, state) field by field with units, then its\n"
     "arrays with type, unit, count and range; then the notes of the\n"
-    "program that wrote it: scene, units, parameters. Units are the scene's where the notes name them. Every checksum is verified on the way.\n";
+    "program that wrote it: scene, units, parameters. Units are the scene's where the notes name them.\n"
+    "Every checksum is verified on the way.\n";
 
 static void print_value(const dump_file *d, const dump_section *s, const dump_member *m, uint64_t row)
 {
@@ -28,6 +29,14 @@ static void print_value(const dump_file *d, const dump_section *s, const dump_me
     printf("%s%s", strcmp(m->unit, "1") ? " " : "", strcmp(m->unit, "1") ? dump_unit(d, m->unit) : "");
 }
 
+/* work and power of a run without books are 0, and mean nothing; the notes say whether it had them */
+static bool is_kept(const dump_file *d, const dump_section *s, const dump_member *m)
+{
+    char books[16];
+    return strcmp(s->name, "state") != 0 || (strcmp(m->name, "work") != 0 && strcmp(m->name, "power") != 0) ||
+           !dump_note(d, "param books", books, sizeof books) || strcmp(books, "no") != 0;
+}
+
 static void print_record(const dump_file *d, const dump_section *s)
 {
     dump_member m;
@@ -38,7 +47,10 @@ static void print_record(const dump_file *d, const dump_section *s)
             printf("%s\n", s->name);
         for (uint32_t f = 0; dump_get_member(s, f, &m); f++) {
             printf("  %-16s ", m.name);
-            print_value(d, s, &m, row);
+            if (is_kept(d, s, &m))
+                print_value(d, s, &m, row);
+            else
+                printf("not kept (books=no)");
             putchar('\n');
         }
     }

@@ -42,7 +42,8 @@ static void print_csv(const build *b, const build_scene *s)
         const scene_param *p = &s->param[i];
         build_param_text(p, p->value, false, value, sizeof value);
         range_text(p, min, max, sizeof min);
-        printf("%s,%u,%s,%s,%s,%s,%s,\"%s\"\n", s->name, b->dimension, p->name, build_unit(s, p->unit), value, min, max, p->what);
+        printf("%s,%u,%s,%s,%s,%s,%s,\"%s\"\n", s->name, b->dimension, p->name,
+               build_unit(s, p->unit), value, min, max, p->what);
     }
 }
 
@@ -56,8 +57,8 @@ static void print_scene(const build *b, const build_scene *s)
         build_param_text(p, p->value, false, value, sizeof value);
         range_text(p, min, max, sizeof min);
         snprintf(range, sizeof range, "%s .. %s", min, max);
-        printf("%-12s %-19s %-10s %-20s %s\n", p->name, value, build_unit(s, p->unit), p->kind == SCENE_CHOICE ? "a name" : range,
-               p->what);
+        printf("%-12s %-19s %-10s %-20s %s\n", p->name, value, build_unit(s, p->unit),
+               p->kind == SCENE_CHOICE ? "a name" : range, p->what);
     }
     static const char *const si[] = {"m", "s", "m/s", "kg/m^3", "Pa", "kg", "J"};
     static const char *const of[] = {"lengths", "times", "speeds", "densities", "stresses", "masses", "energies"};

@@ -20,7 +20,8 @@ static const char help[] =
     "                 vectors as far below 0 as above)\n"
     "  palette=       even (violet to yellow) or signed (blue below 0, grey, red above; the default for the latter)\n"
     "  size=WxH       in pixels, default 960x640\n"
-    "  view=A,B,C,D   the part shown, in the dump's lengths: from A to B across and from C to D up (default: all particles)\n"
+    "  view=A,B,C,D   the part shown, in the dump's lengths: from A to B across and from C to D up (default: all\n"
+    "                 particles)\n"
     "  walls=yes|no   wall particles in grey (default yes)\n"
     "  3-D:  slice=AXIS,POSITION,THICKNESS   shows the particles of a slice, e.g. slice=y,0.5,0.1\n"
     "        azimuth=30 elevation=20         directions (degrees) of the projection that is drawn without a slice\n"
@@ -108,8 +109,8 @@ static bool all_finite(const options *o, const dump_file *d, const double *value
 {
     for (uint32_t i = 0; i < d->n; i++)
         if (!(fabs(value[i]) <= FARTHEST)) {
-            host_no("%s: %s of particle %u is %g, allowed: -%g .. %g", d->name, o->field, dump_id(d, i), value[i], FARTHEST,
-                    FARTHEST);
+            host_no("%s: %s of particle %u is %g, allowed: -%g .. %g", d->name, o->field, dump_id(d, i), value[i],
+                    FARTHEST, FARTHEST);
             return false;
         }
     return true;
@@ -337,8 +338,8 @@ static bool check_range(const char *what, const dump_file *d, double low, double
     const double most = fmax(fabs(low), fabs(high));
     if (most <= FARTHEST && high - low >= NARROWEST * most && high > low)
         return true;
-    host_no("%s: %s is %.17g .. %.17g, allowed: within -%g .. %g, and %g of its largest number wide", d->name, what, low,
-            high, FARTHEST, FARTHEST, NARROWEST);
+    host_no("%s: %s is %.17g .. %.17g, allowed: within -%g .. %g, and %g of its largest number wide", d->name, what,
+            low, high, FARTHEST, FARTHEST, NARROWEST);
     return false;
 }
 
@@ -510,8 +511,8 @@ static bool parse_options(int argc, char **argv, options *o)
     for (int k = 0; t && k < 4; k += 2) {
         const double low = o->view[k], high = o->view[k + 1], most = fmax(fabs(low), fabs(high));
         if (!(most <= FARTHEST && high - low >= NARROWEST * most)) {
-            host_usage("view=%s: %.17g .. %.17g must be within -%g .. %g, and %g of its largest number wide", t, low, high,
-                       FARTHEST, FARTHEST, NARROWEST);
+            host_usage("view=%s: %.17g .. %.17g must be within -%g .. %g, and %g of its largest number wide", t, low,
+                       high, FARTHEST, FARTHEST, NARROWEST);
             return false;
         }
     }

@@ -27,8 +27,9 @@ static const char help[] =
     "  out=PREFIX              write PREFIX.csv and dumps PREFIX_0000.sph ...; without it the history goes to\n"
     "                          standard output and nothing is written\n"
     "  dump=full|picture|none  what dumps hold; picture (position, velocity, density, pressure) unless given\n"
-    "  restore=FILE            go on from a full dump of the same scene and parameters; dt= and damping= may be others.\n"
-    "                          Under the same out= the history goes on, and dumps get numbers above those there\n"
+    "  restore=FILE            go on from a full dump of the same scene and parameters; dt= and damping= may be\n"
+    "                          others. Under the same out= the history goes on, and dumps get numbers above those\n"
+    "                          that are there\n"
     "  cost=FILE               write a table of what the run cost: steps, pairs, seconds\n"
     "  stage_log=FILE          a hash after every pass of every step, to find where two machines part\n"
     "  hash                    print nothing but the hash of the last state to standard output\n"
@@ -180,8 +181,8 @@ static void progress(run *r, bool last)
     r->b->info(r->sim, &info);
     double share = done(r, &info), spent = seconds(now - r->began);
     const char *s = build_unit(&r->scene, "s");
-    fprintf(stderr, "%s%3.0f %%  t %.5g %s  step %llu  dt %.3g %s (%s)", terminal ? "\r" : "", 100 * share, info.time, s,
-            (unsigned long long)info.step, info.dt, s, sph_limit_text(info.limit));
+    fprintf(stderr, "%s%3.0f %%  t %.5g %s  step %llu  dt %.3g %s (%s)", terminal ? "\r" : "", 100 * share, info.time,
+            s, (unsigned long long)info.step, info.dt, s, sph_limit_text(info.limit));
     if (share > 0 && !last)
         fprintf(stderr, "  left %.0f s", spent * (1 / share - 1));
     fprintf(stderr, terminal && !last ? "\033[K" : terminal ? "\033[K\n" : "\n");
@@ -200,8 +201,8 @@ static void report_limits(const run *r, FILE *out)
 static void report_books(const run *r, const build_totals *o, FILE *out)
 {
     const char *const joule = build_unit(&r->scene, "J");
-    fprintf(out, "energy         kinetic %.8g, potential %.8g, internal %.8g %s\n", o->kinetic, o->potential, o->internal,
-            joule);
+    fprintf(out, "energy         kinetic %.8g, potential %.8g, internal %.8g %s\n", o->kinetic, o->potential,
+            o->internal, joule);
     if (o->solid)
         fprintf(out, "solids         elastic %.8g, plastic work %.8g %s\n", o->elastic, o->plastic_work, joule);
     if (o->books)

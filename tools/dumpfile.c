@@ -12,6 +12,7 @@
 #define PREAMBLE 32u
 #define HEADER 64u
 #define FIELD 32u
+#define MOST_SECTIONS 1000u /* a record for each subject, an array for each field: some twenty */
 #define PERIODIC 1u /* of scene.face: SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP */
 #define SYMMETRY 2u
 #define MIRROR_NO_SLIP 3u
@@ -90,7 +91,7 @@ static bool read_preamble(dump_file *d)
         return refuse(d, "the dump is corrupt", "impossible preamble");
     if (number(p + 16, 8) > d->size)
         return refuse(d, "the dump ends too early", "it is shorter than its preamble says");
-    if (d->sections < 6 || d->sections > d->size / HEADER)
+    if (d->sections < 6 || d->sections > d->size / HEADER || d->sections > MOST_SECTIONS)
         return refuse(d, "the dump is corrupt", "number of sections");
     return true;
 }
@@ -509,12 +510,19 @@ static void store(unsigned char *p, uint64_t v, uint32_t bytes)
         p[i] = (unsigned char)(v >> 8 * i);
 }
 
+/* the rest of the field stays zero */
+static void store_text(unsigned char *p, const char *text)
+{
+    while (*text)
+        *p++ = (unsigned char)*text++;
+}
+
 bool dump_put_notes(const char *text, size_t n, uint32_t index, bool (*sink)(void *ctx, const void *bytes, size_t n),
                     void *ctx)
 {
     unsigned char h[HEADER] = {0}, crc[4];
-    memcpy(h, DUMP_NOTES, sizeof DUMP_NOTES - 1);
-    memcpy(h + 16, "text", 4);
+    store_text(h, DUMP_NOTES);
+    store_text(h + 16, "text");
     store(h + 32, DUMP_U8, 4);
     store(h + 36, 1, 4);
     store(h + 40, n, 8);

@@ -134,7 +134,6 @@ static void list_names(const char *const *names)
     fputc('\n', stderr);
 }
 
-/* does an argument before number i say the same name? then a message: which of the two was meant is not to be guessed */
 bool host_given_before(char **argv, int i, const char *name)
 {
     char own[64];

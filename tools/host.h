@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* host.h: what every sub-command needs from the machine: messages, arguments name=value, files that are read. Those that
-   are written: output.h. */
+/* host.h: what every sub-command needs from the machine: messages, arguments name=value, files that are read. Those
+   that are written: output.h. */
 #ifndef HOST_H
 #define HOST_H
 
@@ -40,7 +40,7 @@ bool host_numbers(const char *name, const char *text, uint32_t n, double *out);
    known: null-terminated list of names. Options stay behind the files, and host_option finds them there. An argument
    whose text before '=' has a '/' or '.' is a file. A name that is given twice is refused. */
 int host_known_options(int argc, char **argv, const char *const *known);
-/* true after a message if an argument before argv[i] is NAME=... too */
+/* True after a message if an argument before argv[i] is NAME=... too: which of the two was meant is not guessed. */
 bool host_given_before(char **argv, int i, const char *name);
 const char *host_option(int argc, char **argv, const char *name); /* the value, or null */
 /* splits "name=value" in place of its '='; false if there is none. name is copied (at most size - 1 bytes) */

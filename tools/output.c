@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -15,6 +16,49 @@
 enum { MOST_LINKS = 40, MOST_NAMES = 10000, PIECE = 1 << 20 };
 
 static output *all; /* that are open */
+
+/* ---- signals: a program that is ended leaves no files beside those that were asked for ---- */
+
+static const int ends[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+
+static void remove_and_end(int number)
+{
+    for (const output *o = all; o; o = o->next)
+        if (o->tmp)
+            unlink(o->tmp);
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* once, where nobody else takes the signal */
+static void catch_ends(void)
+{
+    static bool done;
+    struct sigaction now, own;
+    memset(&own, 0, sizeof own);
+    own.sa_handler = remove_and_end;
+    for (size_t k = 0; k < sizeof ends / sizeof *ends && !done; k++)
+        if (!sigaction(ends[k], NULL, &now) && now.sa_handler == SIG_DFL)
+            sigaction(ends[k], &own, NULL);
+    done = true;
+}
+
+/* while the list and its names change, a signal waits */
+static sigset_t hold(void)
+{
+    sigset_t some, before;
+    sigemptyset(&some);
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
+        sigaddset(&some, ends[k]);
+    sigprocmask(SIG_BLOCK, &some, &before);
+    return before;
+}
+static void release(const sigset_t *before)
+{
+    const int reason = errno;
+    sigprocmask(SIG_SETMASK, before, NULL);
+    errno = reason;
+}
 
 static bool say(const output *o, int reason)
 {
@@ -105,6 +149,7 @@ static int open_beside(output *o, mode_t mode)
     static unsigned number;
     char *folder = folder_of(o->path), base[64];
     int fd = -1;
+    const sigset_t before = hold();
     for (int k = 0; fd < 0 && k < MOST_NAMES; k++) {
         snprintf(base, sizeof base, ".sph-%ld-%u.tmp", (long)getpid(), number++);
         free(o->tmp);
@@ -113,15 +158,32 @@ static int open_beside(output *o, mode_t mode)
         if (fd < 0 && errno != EEXIST)
             break;
     }
+    const int reason = errno;
+    if (fd < 0) { /* the last name is not ours */
+        free(o->tmp);
+        o->tmp = NULL;
+    }
+    errno = reason;
+    release(&before);
     if (fd >= 0 && mode && fchmod(fd, mode))
         (void)errno; /* another one's file: it keeps the mode that new files have */
     free(folder);
+    errno = reason;
     return fd;
 }
 
+/* A device or a pipe, or what is reached through /dev, as /dev/stdout is: another one may have it open and wait. */
 static bool is_device(const char *name, const struct stat *s, bool there)
 {
-    return !strncmp(name, "/dev/", 5) || (there && !S_ISREG(s->st_mode) && !S_ISDIR(s->st_mode));
+    char *path = copy(name, strlen(name)), *to;
+    bool device = there && !S_ISREG(s->st_mode) && !S_ISDIR(s->st_mode);
+    for (int k = 0; path && k < MOST_LINKS; k++, path = to) {
+        device = device || !strncmp(path, "/dev/", 5);
+        to = linked(path);
+        free(path);
+    }
+    free(path);
+    return device;
 }
 
 static bool open_file(output *o, const struct stat *s, bool there)
@@ -136,7 +198,7 @@ static bool open_file(output *o, const struct stat *s, bool there)
     if (!o->path)
         return say(o, errno);
     for (const output *p = all; p; p = p->next)
-        if (p->path && !strcmp(p->path, o->path)) {
+        if (p != o && p->path && !strcmp(p->path, o->path)) {
             host_usage("%s=%s and %s=%s are the same file", p->option, p->name, o->option, o->name);
             return false;
         }
@@ -146,6 +208,7 @@ static bool open_file(output *o, const struct stat *s, bool there)
 
 static void forget(output *o)
 {
+    const sigset_t before = hold();
     for (output **p = &all; *p; p = &(*p)->next)
         if (*p == o) {
             *p = o->next;
@@ -158,14 +221,34 @@ static void forget(output *o)
     free(o->text);
     memset(o, 0, sizeof *o);
     o->fd = -1;
+    release(&before);
 }
 
 static bool gather(output *o)
 {
     o->f = open_memstream(&o->text, &o->size);
+    return o->f || fail(o, errno);
+}
+
+/* into the list, so that its file can be removed whatever comes */
+static void enlist(output *o)
+{
+    const sigset_t before = hold();
+    catch_ends();
     o->next = all;
     all = o;
-    return o->f || fail(o, errno);
+    release(&before);
+}
+
+/* Standard output by another name shares its place in the file, so that neither writes over the other. */
+static int open_device(const char *name, const struct stat *s, bool there)
+{
+    struct stat out;
+    if (there && !fstat(STDOUT_FILENO, &out) && out.st_dev == s->st_dev && out.st_ino == s->st_ino) {
+        fflush(stdout);
+        return dup(STDOUT_FILENO);
+    }
+    return open(name, O_WRONLY | O_NOCTTY);
 }
 
 bool output_open(output *o, const char *option, const char *name)
@@ -175,10 +258,11 @@ bool output_open(output *o, const char *option, const char *name)
     o->option = option;
     o->name = name;
     o->fd = -1;
+    enlist(o);
     const bool there = stat(name, &s) == 0;
     bool fine;
     if (is_device(name, &s, there)) {
-        o->fd = open(name, O_WRONLY | O_NOCTTY);
+        o->fd = open_device(name, &s, there);
         fine = o->fd >= 0 || say(o, errno);
     } else
         fine = open_file(o, &s, there);
@@ -198,6 +282,7 @@ void output_standard(output *o)
     o->option = "";
     o->name = "standard output";
     o->fd = STDOUT_FILENO;
+    enlist(o);
     fflush(stdout);
     gather(o);
 }
@@ -248,11 +333,14 @@ bool output_sink(void *ctx, const void *bytes, size_t n)
 
 static bool rename_now(output *o)
 {
-    if (rename(o->tmp, o->path))
-        return fail(o, errno);
-    free(o->tmp);
-    o->tmp = NULL;
-    return true;
+    const sigset_t before = hold();
+    const bool fine = rename(o->tmp, o->path) == 0;
+    if (fine) {
+        free(o->tmp);
+        o->tmp = NULL;
+    }
+    release(&before);
+    return fine || fail(o, errno);
 }
 
 bool output_begin(output *o)

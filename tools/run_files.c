@@ -57,7 +57,10 @@ static bool write_notes(const run *r, const dump_sink *s)
         sections = sections << 8 | s->head[i];
     if (f)
         put_notes(r, f);
-    const bool fine = f && !fclose(f) && dump_put_notes(text, size, sections, output_sink, s->o);
+    const bool whole = f && !fclose(f);
+    if (!whole)
+        host_no("%s: no memory for its notes", s->o->name);
+    const bool fine = whole && dump_put_notes(text, size, sections, output_sink, s->o);
     free(text);
     return fine;
 }

@@ -185,7 +185,8 @@ static bool check_kind(const run *r, const dump_file *d)
     char scene[64], text[160];
     const char *const precision = d->real_bytes == 8 ? "double" : "float";
     if (d->dim != r->b->dimension) {
-        snprintf(text, sizeof text, "dimension: %u in the dump, %u of scene %s", d->dim, r->b->dimension, r->scene.name);
+        snprintf(text, sizeof text, "dimension: %u in the dump, %u of scene %s", d->dim, r->b->dimension,
+                 r->scene.name);
         return refuse(r, text);
     }
     if (dump_note(d, "scene", scene, sizeof scene) && strcmp(scene, r->scene.name) != 0) {

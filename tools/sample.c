@@ -6,9 +6,9 @@
    A linear function goes on outside of the particles it was made from, and there it is worth nothing. So order 1 is for
    places in the body: within sqrt(dim) spacings of a particle (the corner of a surface half a spacing outside of a
    lattice is half of that away; the other half is for disorder). It needs more than the dim + 1 particles which any
-   linear field fits (in 1-D these, two), and sum phi f, by which it is a sum over the particles, must not blow errors up:
-   S = sum |phi| is 1 among particles and grows by 2 e along each axis along which a place is e spacings outside of them;
-   up to 1 + 6 dim. Elsewhere the mean of order 0 is taken, which never leaves the range of what is near. */
+   linear field fits (in 1-D these, two), and sum phi f, by which it is a sum over the particles, must not blow errors
+   up: S = sum |phi| is 1 among particles and grows by 2 e along each axis along which a place is e spacings outside of
+   them; up to 1 + 6 dim. Elsewhere the mean of order 0 is taken, which never leaves the range of what is near. */
 #include "sample.h"
 
 #include <math.h>

@@ -15,8 +15,8 @@ typedef struct sampler {
 } sampler;
 
 /* Values of the fields at x. Returns how many particles took part; 0: none is near, values are 0. *order is what was
-   used: where the particles near do not span the space, or the place lies outside of them (sample.c), order 1 falls back
-   to 0. */
+   used: where the particles near do not span the space, or the place lies outside of them (sample.c), order 1 falls
+   back to 0. */
 uint32_t sample_at(const sampler *s, const double x[3], double value[SAMPLE_FIELDS], uint32_t *order);
 
 #endif

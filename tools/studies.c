@@ -196,14 +196,12 @@ static void note_scene(studies *all, const char *scene)
     all->scenes++;
 }
 
-static bool read_file(studies *all, const char *folder, const char *name, const char *scene)
+/* a table's text, from malloc, becomes the study's; so does its file's name */
+static bool take_file(studies *all, char *file, unsigned char *text, size_t size, const char *scene)
 {
-    const size_t room = strlen(folder) + strlen(name) + 2;
-    size_t size;
     study s = {NULL, NULL, "", "", "", "", "", "", NULL, 0};
-    s.file = host_alloc(room);
-    snprintf(s.file, room, "%s/%s", folder, name);
-    s.text = host_read(s.file, &size);
+    s.file = file;
+    s.text = text;
     bool fine = s.text != NULL, wanted = false;
     if (fine && (strlen((char *)s.text) != size || (size && s.text[size - 1] != '\n'))) {
         host_no("%s: the last line has no end, or there is a zero byte: the file is not whole", s.file);
@@ -227,6 +225,38 @@ static bool read_file(studies *all, const char *folder, const char *name, const 
     return true;
 }
 
+static bool read_file(studies *all, const char *folder, const char *name, const char *scene)
+{
+    const size_t room = strlen(folder) + strlen(name) + 2;
+    size_t size = 0;
+    char *file = host_alloc(room);
+    snprintf(file, room, "%s/%s", folder, name);
+    unsigned char *text = host_read(file, &size);
+    return take_file(all, file, text, size, scene);
+}
+
+static bool open_built_in(studies *all, const char *scene)
+{
+    for (const studies_file *f = studies_built_in; f->name; f++) {
+        const size_t room = strlen(f->name) + 1;
+        size_t size = 0, at = 0;
+        char *file = host_alloc(room);
+        memcpy(file, f->name, room);
+        for (const char *const *line = f->line; *line; line++)
+            size += strlen(*line) + 1;
+        char *text = host_alloc(size + 1);
+        for (const char *const *line = f->line; *line; line++) {
+            memcpy(text + at, *line, strlen(*line));
+            at += strlen(*line);
+            text[at++] = '\n';
+        }
+        text[at] = '\0';
+        if (!take_file(all, file, (unsigned char *)text, size, scene))
+            return false;
+    }
+    return true;
+}
+
 static int is_table(const struct dirent *e)
 {
     const size_t n = strlen(e->d_name);
@@ -239,6 +269,12 @@ bool studies_open(studies *s, const char *folder, const char *scene)
     struct dirent **entry;
     bool fine = true;
     memset(s, 0, sizeof *s);
+    if (!folder) {
+        fine = open_built_in(s, scene);
+        if (!fine)
+            studies_close(s);
+        return fine;
+    }
     const int n = scandir(folder, &entry, is_table, by_name);
     if (n < 0) {
         host_no("cannot read the folder %s: %s", folder, strerror(errno));

@@ -49,8 +49,15 @@ typedef struct studies {
     uint32_t scenes;
 } studies;
 
-/* The studies of `scene` in a folder, in order of their files' names. False after a message: the folder or a file of
-   this scene cannot be read or is malformed. None at all is no error. */
+/* the tables that were there when the program was built, line by line; the last has no name (tables.awk) */
+typedef struct studies_file {
+    const char *name;
+    const char *const *line;
+} studies_file;
+extern const studies_file studies_built_in[];
+
+/* The studies of `scene` in a folder, in order of their files' names; folder null: of those built in. False after a
+   message: the folder or a file of this scene cannot be read or is malformed. None at all is no error. */
 bool studies_open(studies *s, const char *folder, const char *scene);
 void studies_close(studies *s);
 

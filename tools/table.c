@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "table.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,8 +147,7 @@ bool plot_name(const char *option, const char *out)
 static bool plain(char c)
 {
     const unsigned char u = (unsigned char)c;
-    return u > 127 || (u >= ' ' && strchr(" ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_=.,:;+-*/()[]%^<>|~#",
-                                          c));
+    return u > 127 || isalnum(u) || (c && strchr(" _=.,:;+-*/()[]%^<>|~#", c));
 }
 
 void plot_quote(FILE *g, const char *text)
@@ -214,7 +214,8 @@ static bool draw(const plot *p, output *o)
     FILE *script = tmpfile();
     int out[2];
     size_t bytes = 0;
-    bool fine = script && fwrite(p->script, 1, p->size, script) == p->size && !fflush(script) && !fseek(script, 0, SEEK_SET);
+    const bool fine = script && fwrite(p->script, 1, p->size, script) == p->size && !fflush(script) &&
+                      !fseek(script, 0, SEEK_SET);
     fflush(NULL); /* the child must not write what waits in this program's buffers */
     const pid_t child = fine ? start(script, out) : -1;
     const int reason = errno, code = child < 0 ? -1 : take_picture(child, out[0], o, &bytes);

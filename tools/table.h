@@ -29,8 +29,8 @@ void table_close(table *t);
 double table_at(const table *t, uint32_t row, uint32_t column);
 int table_column(const table *t, const char *name, size_t n); /* by the n letters of its name; -1: there is none */
 
-/* gnuplot: what it shall do is gathered through p.g, then it runs. It reads a script and gives a picture; the name of the
-   picture is no part of the script, and texts get into it by plot_quote alone. */
+/* gnuplot: what it shall do is gathered through p.g, then it runs. It reads a script and gives a picture; the name of
+   the picture is no part of the script, and texts get into it by plot_quote alone. */
 typedef struct plot {
     FILE *g; /* in memory */
     char *script;
@@ -38,8 +38,8 @@ typedef struct plot {
 } plot;
 bool plot_open(plot *p, int width, int height); /* false after a message */
 bool plot_close(plot *p, output *o);            /* runs it, the picture goes to o; false after a message */
-/* Text inside single quotes. What could end them, or is no letter, digit or plain sign, is written as ?: a text may come
-   out of a file's name or its contents, and a script is a program. */
+/* Text inside single quotes. What could end them, or is no letter, digit or plain sign, is written as ?: a text may
+   come out of a file's name or its contents, and a script is a program. */
 void plot_quote(FILE *g, const char *text);
 bool plot_name(const char *option, const char *out); /* is it a name of a picture? else a message */
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* vtu.c: particles as a VTK unstructured grid (see vtu.h). Arrays stand behind the XML part as they are in memory,
    little-endian, and packed by zlib in blocks where the program was built with it (-DHAVE_ZLIB): of an array then
-   UInt64 blocks, bytes of a block, bytes of the last one if it is shorter (else 0), packed bytes of each; the blocks. */
+   UInt64 blocks, bytes of a block, bytes of the last one if it is shorter (else 0), packed bytes of each; then the
+   blocks. */
 #include "vtu.h"
 
 #include <math.h>
@@ -132,7 +133,13 @@ void vtu_put_text(FILE *f, const char *text)
 /* bytes of the letter in UTF-8 at p, 0 if there is none */
 static size_t letter(const unsigned char *p)
 {
-    const size_t n = *p < 0x80 ? 1 : *p >= 0xc2 && *p < 0xe0 ? 2 : *p >= 0xe0 && *p < 0xf0 ? 3 : *p >= 0xf0 && *p < 0xf5 ? 4 : 0;
+    static const struct {
+        unsigned char low, high, bytes;
+    } first[] = {{0x01, 0x7f, 1}, {0xc2, 0xdf, 2}, {0xe0, 0xef, 3}, {0xf0, 0xf4, 4}};
+    size_t n = 0;
+    for (size_t k = 0; k < sizeof first / sizeof *first; k++)
+        if (*p >= first[k].low && *p <= first[k].high)
+            n = first[k].bytes;
     for (size_t k = 1; k < n; k++)
         if ((p[k] & 0xc0) != 0x80)
             return 0;
@@ -222,7 +229,8 @@ static void append(vtu *v, size_t bytes)
 
 static void put_text_value(const vtu *v, const char *type, double x)
 {
-    fprintf(v->xml, !strcmp(type, "Float64") ? "%.17g\n" : !strcmp(type, "Float32") ? "%.9g\n" : "%.0f\n", x);
+    const bool single = !strcmp(type, "Float32");
+    fprintf(v->xml, single ? "%.9g\n" : !strcmp(type, "Float64") ? "%.17g\n" : "%.0f\n", single ? (double)(float)x : x);
 }
 
 static void store_value(unsigned char *p, const char *type, double x)
@@ -315,8 +323,9 @@ static void put_field_data(const vtu *v, const dump_file *d)
     for (uint32_t k = 0; k < DUMP_GONE; k++)
         snprintf(role[k], sizeof role[k], "%s", roles[k]);
     for (uint32_t s = 0; s < d->sets && s < 256; s++)
-        snprintf(set[s], sizeof set[s], "%u: %s, rest density %g %s", s, roles[(int)dump_number(d, "sets", "role", s, 0)],
-                 dump_number(d, "sets", "rho0", s, 0), dump_unit(d, "kg/m^3"));
+        snprintf(set[s], sizeof set[s], "%u: %s, rest density %g %s", s,
+                 roles[(int)dump_number(d, "sets", "role", s, 0)], dump_number(d, "sets", "rho0", s, 0),
+                 dump_unit(d, "kg/m^3"));
     fprintf(v->xml,
             "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">"
             "%.17g</DataArray>\n", d->time);

@@ -29,8 +29,9 @@ typedef struct scene_param {
     uint32_t kind;
 } scene_param;
 
-/* The units of a scene. The kernel knows none: its manual says m, s and kg, and that any one system will do. A row gives
-   the scene's unit for what the manual calls si; what has no row is called as in the manual. Ends with a row of nulls. */
+/* The units of a scene. The kernel knows none: its manual says m, s and kg, and that any one system will do. A row
+   gives the scene's unit for what the manual calls si; what has no row is called as in the manual. Ends with a row of
+   nulls. */
 typedef struct scene_unit {
     const char *si, *own;
 } scene_unit;
