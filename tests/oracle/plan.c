@@ -303,6 +303,7 @@ static void draw_points(plan *p)
     for (uint32_t i = 0; i < p->probes; i++)
         for (int k = 0; k < SPH_DIM; k++) {
             p->probe[i][k] = place(p, k, where[k], spread) + (chance(0.2) ? range(-1, 1) * support : 0);
+            p->probe[i][k] = o_max(c->lo[k], o_min(c->hi[k], p->probe[i][k]));
             if (chance(0.2))
                 p->probe[i][k] = chance(0.5) ? c->lo[k] : c->hi[k];
         }
