@@ -39,6 +39,8 @@ static o_sum exact(double v) { return (o_sum){v, fabs(v)}; }
 
 /* ---- the first forces ---- */
 
+static seen kernel[4096], before[4096];
+
 static double kept(const double (*m)[3], int k)
 {
     static const int at[2][5][2] = {{{0, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}}};
@@ -80,7 +82,7 @@ static void compare_body(const o_scene *s, const o_particle *p, const seen *k)
         compare_solid(s, p, k);
 }
 
-static void compare_forces(const o_scene *s, const seen *kernel)
+static void compare_forces(const o_scene *s)
 {
     for (uint32_t i = 0; i < s->n; i++) {
         const o_particle *p = &s->own[i];
@@ -96,6 +98,41 @@ static void compare_forces(const o_scene *s, const seen *kernel)
         check("wall density", p->id, 0, k->d, p->density, 0);
         for (uint32_t c = 0; set->no_slip && c < SPH_DIM; c++)
             check("wall velocity", p->id, c, k->v[c], p->wall_v[c], 0);
+    }
+}
+
+/* Momentum where nothing outside takes any: the sum of m a is that of gravity and body force; angular momentum of fluids
+   whose forces are along the lines between particles. */
+static void compare_momentum(const o_scene *s)
+{
+    const sph_config *c = &s->cfg;
+    bool alone = c->scheme != SPH_DIRECT;
+    o_sum force[3] = {{0, 0}}, turn[3] = {{0, 0}};
+    for (int k = 0; k < SPH_DIM; k++)
+        alone &= c->face[k][0] == SPH_OPEN && c->face[k][1] == SPH_OPEN;
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        double own[3] = {0}, a[3] = {0};
+        alone &= o_is_body(s, p) && !s->set[p->set].held;
+        if (c->body_force)
+            c->body_force(c->body_ctx, s->time, p->x, p->v, own);
+        for (int k = 0; k < SPH_DIM; k++) {
+            a[k] = kernel[p->id].a[k] - c->gravity[k] - own[k];
+            o_add(&force[k], s->set[p->set].mass * a[k], s->set[p->set].mass * p->a[k].s);
+        }
+        for (int k = 0; k < 3; k++) {
+            const int l = (k + 1) % 3, n = (k + 2) % 3;
+            const double m = s->set[p->set].mass;
+            o_add(&turn[k], m * (p->x[l] * a[n] - p->x[n] * a[l]),
+                  m * (fabs(p->x[l]) * p->a[n].s + fabs(p->x[n]) * p->a[l].s));
+        }
+    }
+    const bool along = !o_has_solids(s) && c->viscosity != SPH_MORRIS && c->gradient != SPH_RENORMALISED;
+    for (uint32_t k = 0; alone && k < 3; k++) {
+        check("momentum from nowhere", SPH_NO_PARTICLE, k, force[k].v, (o_sum){0, force[k].s}, 0);
+        /* after Bonet & Lok the force is T x_ij, which turns a pair; only all together do not turn, where all have N */
+        if (along && c->gradient == SPH_PLAIN)
+            check("turn from nowhere", SPH_NO_PARTICLE, k, turn[k].v, (o_sum){0, turn[k].s}, 0);
     }
 }
 
@@ -158,6 +195,49 @@ static void compare_totals(const sph_sim *sim, const o_scene *s)
     }
 }
 
+static double cover_at(const o_scene *s, const double *x, uint32_t axis, double y)
+{
+    double at[3] = {x[0], x[1], x[2]};
+    at[axis] = y;
+    return o_probe(s, at).cover.v;
+}
+
+/* The gauge walks in quarters of a spacing: no place more than one above its height may be covered by half over a whole
+   one, and at its height cover passes 1/2. The depth is the integral of cover over the whole line. */
+static void compare_gauges(const sph_sim *sim, o_scene *s, const double *x, uint32_t axis)
+{
+    enum { PARTS = 8 };
+    const double quarter = 0.25 * s->cfg.spacing, lo = s->cfg.lo[axis], hi = s->cfg.hi[axis];
+    const bool open = s->cfg.face[axis][0] == SPH_OPEN && s->cfg.face[axis][1] == SPH_OPEN;
+    double height = 0, run = 0;
+    if (sph_gauge(sim, x, axis, &height) != SPH_OK || !open)
+        return;
+    for (double y = o_max(height, lo) + quarter; y < hi + s->support; y += quarter / PARTS) {
+        run = cover_at(s, x, axis, y) >= 0.5 + 1e-5 ? run + quarter / PARTS : 0;
+        check("gauge misses water above", 0, axis, run > quarter * 1.01, (o_sum){0, 1}, 0);
+    }
+    if (height > lo) {
+        double most = 0, least = 1e300;
+        for (int k = -PARTS; k <= PARTS; k++) {
+            const double cover = cover_at(s, x, axis, height + quarter * k / PARTS);
+            most = o_max(most, cover);
+            least = o_min(least, cover);
+        }
+        check("gauge where nothing begins", 0, axis, most < 0.5 - 1e-5 || least > 0.5 + 1e-5, (o_sum){0, 1}, 0);
+    }
+#ifdef sph_depth
+    double depth = 0, sum = 0, size = 0;
+    if (sph_depth(sim, x, axis, &depth) != SPH_OK)
+        return;
+    const double far = s->support, step = (hi - lo + 2 * far) / 4000;
+    for (double y = lo - far + 0.5 * step; y < hi + far; y += step) {
+        sum += step * cover_at(s, x, axis, y);
+        size += step * cover_at(s, x, axis, y);
+    }
+    check("depth", 0, axis, depth, (o_sum){sum, (size + far * 1e-2) * 2e-3 / TOLERANCE}, 0);
+#endif
+}
+
 static void compare_probes(const sph_sim *sim, const plan *p, o_scene *s)
 {
     for (uint32_t i = 0; i < p->probes; i++) {
@@ -172,11 +252,12 @@ static void compare_probes(const sph_sim *sim, const plan *p, o_scene *s)
         for (uint32_t k = 0; k < SPH_DIM; k++)
             check("probe v", i, k, v.v[k], o.v[k], 0);
     }
+    if (p->probes)
+        compare_gauges(sim, s, p->probe[0], (uint32_t)(p->seed % SPH_DIM));
 }
 
 /* ---- a step of nearly no time ---- */
 
-static seen kernel[4096], before[4096];
 
 /* where even so short a way may lead through a face or turn a velocity */
 static bool on_a_face(const o_scene *s, const o_particle *p)
@@ -306,7 +387,8 @@ static verdict compare(const plan *p, const char **why)
         o_sum_density(&scene);
     o_forces(&scene);
     look_results(sim, kernel, 4096);
-    compare_forces(&scene, kernel);
+    compare_forces(&scene);
+    compare_momentum(&scene);
     compare_limits(sim, &scene);
     look_scene(sim, p, &scene); /* totals and probes of the state that the kernel has now */
     o_refresh(&scene);
