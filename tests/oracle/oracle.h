@@ -192,6 +192,6 @@ double o_diffused_per_rate(const o_scene *s, const o_particle *p); /* -p/rho^2 o
 typedef struct o_probe_value {
     o_sum cover, rho, p, v[3];
 } o_probe_value;
-o_probe_value o_probe(const o_scene *s, const double *x);
+o_probe_value o_probe(o_scene *s, const double *x);
 
 #endif

@@ -325,7 +325,7 @@ void plan_draw(plan *p, uint64_t seed)
     draw_domain(p);
     draw_points(p);
     if (p->cfg.scheme == SPH_STANDARD_WICK || p->cfg.scheme == SPH_WEAK_WICK)
-        p->steps = p->steps ? 1 : 0; /* they divide by a pressure that goes through 0: rounding errors grow without bound */
+        p->steps = p->steps && SPH_DOUBLE ? 1 : 0; /* they divide by a pressure that goes through 0: rounding errors grow without bound */
     p->wall_d = chance(0.5) ? 0 : range(0, 0.2);
     p->cfg.shepard_every = p->cfg.solid == SPH_NO_SOLID && p->cfg.density == SPH_CONTINUITY && chance(0.5) ? 1 : 0;
     p->cfg.max_particles = 4096;

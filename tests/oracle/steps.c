@@ -113,8 +113,8 @@ static void pass_faces(o_scene *s)
         beginning *b = &was[i];
         for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++) {
             const double lo = s->cfg.lo[k], hi = s->cfg.hi[k], length = hi - lo;
-            o_close(s, "a particle on a face", p->x[k], lo, s->cfg.spacing);
-            o_close(s, "a particle on a face", p->x[k], hi, s->cfg.spacing);
+            o_close(s, "a particle on a face", p->x[k], lo, (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing);
+            o_close(s, "a particle on a face", p->x[k], hi, (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing);
             const bool low = p->x[k] < lo;
             if (!low && p->x[k] < hi)
                 continue;
