@@ -608,7 +608,7 @@ SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
         a2 += acc[k] * acc[k];
         v2 += t->home.v[k][h] * t->home.v[k][h];
     }
-    t->peaks.mu = larger(t->peaks.mu, v_fold_max(t->sum[SUM_MU][h]) * (2 * t->home.rho[h]));
+    t->peaks.mu = larger(t->peaks.mu, v_fold_max(t->sum[SUM_MU][h]));
     t->peaks.acc = larger(t->peaks.acc, a2);
     t->peaks.speed = larger(t->peaks.speed, v2);
     return a2;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* smoothing.c: smoothed velocities for the strain rates of solids, u_i = xsph sum (m_j/rho_mean) (v_j - v_i) W (Gray
-   2001 eqs 2.22, 5.10). Array: xsph (state). Cost: a sweep before the forces. */
+   2001 eqs 2.22, 5.10); W as the kernel sees the pair, as in xsph.h: of one body's bonds at |K|. Array: xsph (state). Cost: a sweep before the forces. */
+#include "reference.h"
 #include "smoothed.h"
 
 #if SPH_HAS_HAT
@@ -18,20 +19,36 @@ void sph_load_smoothed(const sph_candidates *r, sph_real *to, uint32_t row)
         }
 }
 
+/* reference positions, in the total-Lagrangian form; else null */
+typedef struct smoothing {
+    const sph_reference_homes *homes;
+    const sph_reference_tile *tile;
+} smoothing;
+
 SPH_INLINE void smooth_pair(const void *what, uint32_t j, vreal *s)
 {
     const sph_gather *g = what;
     const sph_tile *home = &g->t->home, *c = g->tile;
-    vreal dx[SPH_DIM];
+    const smoothing *const own = g->own;
+    vreal dx[SPH_DIM], kx[SPH_DIM];
     sph_gather_distance(g, j, dx);
-    const vreal w = sph_gather_value(g, dx) * v_load(c->m + j) / (home->rho[g->h] + v_load(c->rho + j));
+    memcpy(kx, dx, sizeof kx);
+    if (SPH_HAS_TOTAL && own->tile) {
+        const sph_reference_home was = sph_spread_reference(own->homes, g->h);
+        vint same, apart;
+        sph_reference_distance(&was, own->tile, j, dx, kx, &same, &apart);
+    }
+    const vreal w = sph_gather_value(g, kx) * v_load(c->m + j) / (home->rho[g->h] + v_load(c->rho + j));
     for (int k = 0; k < SPH_DIM; k++)
         s[k] = s[k] + w * (v_load(c->v[k] + j) - home->v[k][g->h]);
 }
 static void smooth_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
+    smoothing own = {NULL, NULL};
     (void)role;
-    sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SPH_DIM), smooth_pair, NULL);
+    if (SPH_HAS_TOTAL && sph_is_total(&sim->cfg))
+        own = (smoothing){sph_reference_homes_of(sim, t), sph_reference_of(sim, t)};
+    sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SPH_DIM), smooth_pair, &own);
 }
 
 static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -44,8 +61,8 @@ static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SPH_DIM), false, 0, smooth_tile,
-                                smooth_finish, 0};
+    const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SPH_DIM), false,
+                         sph_is_total(&sim->cfg) ? 1u << SPH_COLUMN_reference : 0, smooth_tile, smooth_finish, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool smooths(const sph_sim *sim) { return sph_smooths_strain(&sim->cfg); }

@@ -59,7 +59,8 @@ SPH_INLINE void sph_viscosity(const sph_choice *c, const sph_factors *f, const s
         p->visc = mu * strength * p->mg;
         p->force = p->force - p->visc;
     }
-    s[SUM_MU] = v_max(s[SUM_MU], v_where(v_less(p->q, v_set(f->reach)), v_abs(mu)));
+    const vreal true_mu = v_abs(mu) * (h->rho + p->rho); /* for the step's limit */
+    s[SUM_MU] = v_max(s[SUM_MU], v_where(v_less(p->q, v_set(f->reach)), true_mu));
 }
 
 #endif

@@ -39,6 +39,8 @@ static o_sum exact(double v) { return (o_sum){v, fabs(v)}; }
 
 /* ---- the first forces ---- */
 
+static seen kernel[4096], before[4096];
+
 static double kept(const double (*m)[3], int k)
 {
     static const int at[2][5][2] = {{{0, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}}};
@@ -80,7 +82,7 @@ static void compare_body(const o_scene *s, const o_particle *p, const seen *k)
         compare_solid(s, p, k);
 }
 
-static void compare_forces(const o_scene *s, const seen *kernel)
+static void compare_forces(const o_scene *s)
 {
     for (uint32_t i = 0; i < s->n; i++) {
         const o_particle *p = &s->own[i];
@@ -96,6 +98,41 @@ static void compare_forces(const o_scene *s, const seen *kernel)
         check("wall density", p->id, 0, k->d, p->density, 0);
         for (uint32_t c = 0; set->no_slip && c < SPH_DIM; c++)
             check("wall velocity", p->id, c, k->v[c], p->wall_v[c], 0);
+    }
+}
+
+/* Momentum where nothing outside takes any: the sum of m a is that of gravity and body force; angular momentum of fluids
+   whose forces are along the lines between particles. */
+static void compare_momentum(const o_scene *s)
+{
+    const sph_config *c = &s->cfg;
+    bool alone = c->scheme != SPH_DIRECT;
+    o_sum force[3] = {{0, 0}}, turn[3] = {{0, 0}};
+    for (int k = 0; k < SPH_DIM; k++)
+        alone &= c->face[k][0] == SPH_OPEN && c->face[k][1] == SPH_OPEN;
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        double own[3] = {0}, a[3] = {0};
+        alone &= o_is_body(s, p) && !s->set[p->set].held;
+        if (c->body_force)
+            c->body_force(c->body_ctx, s->time, p->x, p->v, own);
+        for (int k = 0; k < SPH_DIM; k++) {
+            a[k] = kernel[p->id].a[k] - c->gravity[k] - own[k];
+            o_add(&force[k], s->set[p->set].mass * a[k], s->set[p->set].mass * p->a[k].s);
+        }
+        for (int k = 0; k < 3; k++) {
+            const int l = (k + 1) % 3, n = (k + 2) % 3;
+            const double m = s->set[p->set].mass;
+            o_add(&turn[k], m * (p->x[l] * a[n] - p->x[n] * a[l]),
+                  m * (fabs(p->x[l]) * p->a[n].s + fabs(p->x[n]) * p->a[l].s));
+        }
+    }
+    const bool along = !o_has_solids(s) && c->viscosity != SPH_MORRIS && c->gradient != SPH_RENORMALISED;
+    for (uint32_t k = 0; alone && k < 3; k++) {
+        check("momentum from nowhere", SPH_NO_PARTICLE, k, force[k].v, (o_sum){0, force[k].s}, 0);
+        /* after Bonet & Lok the force is T x_ij, which turns a pair; only all together do not turn, where all have N */
+        if (along && c->gradient == SPH_PLAIN)
+            check("turn from nowhere", SPH_NO_PARTICLE, k, turn[k].v, (o_sum){0, turn[k].s}, 0);
     }
 }
 
@@ -158,6 +195,56 @@ static void compare_totals(const sph_sim *sim, const o_scene *s)
     }
 }
 
+static double cover_at(o_scene *s, const double *x, uint32_t axis, double y)
+{
+    double at[3] = {x[0], x[1], x[2]};
+    at[axis] = y;
+    const char *const undecided = s->undecided; /* a line passes many edges: those of its places do not matter */
+    const double cover = o_probe(s, at).cover.v;
+    s->undecided = undecided;
+    return cover;
+}
+
+/* The gauge walks in quarters of a spacing: no place more than one above its height may be covered by half over a whole
+   one, and at its height cover passes 1/2. The depth is the integral of cover over the whole line. */
+static void compare_gauges(const sph_sim *sim, o_scene *s, const double *x, uint32_t axis)
+{
+    enum { PARTS = 16 };
+    const double quarter = 0.25 * s->cfg.spacing, lo = s->cfg.lo[axis], hi = s->cfg.hi[axis];
+    const bool open = s->cfg.face[axis][0] == SPH_OPEN && s->cfg.face[axis][1] == SPH_OPEN;
+    double height = 0, run = 0;
+    double top = -1e300;
+    for (uint32_t i = 0; i < s->n; i++)
+        top = o_is_body(s, &s->own[i]) ? o_max(top, s->own[i].x[axis]) : top;
+    /* it begins two spacings above the highest particle */
+    if (sph_gauge(sim, x, axis, &height) != SPH_OK || !open || cover_at(s, x, axis, top + 2 * s->cfg.spacing) >= 0.4)
+        return;
+    for (double y = o_max(height, lo) + quarter; y < hi + s->support; y += quarter / PARTS) {
+        run = cover_at(s, x, axis, y) >= 0.5 + 1e-5 ? run + quarter / PARTS : 0;
+        check("gauge misses water above", 0, axis, run > quarter * 1.01, (o_sum){0, 1}, 0);
+    }
+    if (height > lo) {
+        double most = 0, least = 1e300;
+        for (int k = -PARTS; k <= PARTS; k++) {
+            const double cover = cover_at(s, x, axis, height + quarter * k / PARTS);
+            most = o_max(most, cover);
+            least = o_min(least, cover);
+        }
+        check("gauge where nothing begins", 0, axis, most < 0.5 - 1e-5 || least > 0.5 + 1e-5, (o_sum){0, 1}, 0);
+    }
+#ifdef sph_depth
+    double depth = 0, sum = 0, size = 0;
+    if (sph_depth(sim, x, axis, &depth) != SPH_OK)
+        return;
+    const double far = s->support, step = (hi - lo + 2 * far) / 4000;
+    for (double y = lo - far + 0.5 * step; y < hi + far; y += step) {
+        sum += step * cover_at(s, x, axis, y);
+        size += step * cover_at(s, x, axis, y);
+    }
+    check("depth", 0, axis, depth, (o_sum){sum, (size + far * 1e-2) * 2e-3 / TOLERANCE}, 0);
+#endif
+}
+
 static void compare_probes(const sph_sim *sim, const plan *p, o_scene *s)
 {
     for (uint32_t i = 0; i < p->probes; i++) {
@@ -172,11 +259,12 @@ static void compare_probes(const sph_sim *sim, const plan *p, o_scene *s)
         for (uint32_t k = 0; k < SPH_DIM; k++)
             check("probe v", i, k, v.v[k], o.v[k], 0);
     }
+    if (p->probes)
+        compare_gauges(sim, s, p->probe[0], (uint32_t)(p->seed % SPH_DIM));
 }
 
 /* ---- a step of nearly no time ---- */
 
-static seen kernel[4096], before[4096];
 
 /* where even so short a way may lead through a face or turn a velocity */
 static bool on_a_face(const o_scene *s, const o_particle *p)
@@ -189,6 +277,8 @@ static bool on_a_face(const o_scene *s, const o_particle *p)
 
 static void compare_still(const sph_sim *sim, o_scene *s, double dt)
 {
+    const bool twice = s->cfg.integrator == SPH_PREDICTOR_CORRECTOR || s->cfg.integrator == SPH_KICK_DRIFT_KICK;
+    const double damping = s->cfg.damping * (twice ? s->cfg.damping : 1);
     look_results(sim, kernel, 4096);
     if (s->cfg.shepard_every)
         o_filter_density(s);
@@ -203,7 +293,7 @@ static void compare_still(const sph_sim *sim, o_scene *s, double dt)
         for (uint32_t c = 0; c < SPH_DIM; c++) {
             const bool held = set->held >> c & 1;
             const double ref = s->cfg.sponge_velocity[c], f = held ? 1 : exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);
-            check("velocity after a sponge", p->id, c, k->v[c], exact(ref + (p->v[c] - ref) * f),
+            check("velocity after a sponge", p->id, c, k->v[c], exact(ref + (p->v[c] * (held ? 1 : damping) - ref) * f),
                   fabs(p->v[c]) + set->c0 +
                       10 * dt * (fabs(k->a[c]) + fabs(before[p->id].a[c])) / TOLERANCE);
         }
@@ -213,6 +303,72 @@ static void compare_still(const sph_sim *sim, o_scene *s, double dt)
         const uint32_t flaws = look_flaws(sim, p->id, flaw);
         check("damage", p->id, 0, k->root, exact(o_grown_root(s, p, flaw, flaws, dt)), 0);
     }
+}
+
+/* ---- whole steps ---- */
+
+/* how far trajectories may come apart: rounding errors that grow from step to step */
+#define APART (SPH_DOUBLE ? 1e-8 : 1e-3)
+
+static const sph_sim *looked_at;
+static uint32_t flaws_of(uint32_t id, float *threshold) { return look_flaws(looked_at, id, threshold); }
+
+static o_sum near(double v, double scale) { return (o_sum){v, scale * APART / TOLERANCE}; }
+
+static void compare_trajectories(const sph_sim *sim, const o_scene *s)
+{
+    look_results(sim, kernel, 4096);
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        const o_set *set = &s->set[p->set];
+        const seen *k = &kernel[p->id];
+        const bool body = o_is_body(s, p);
+        for (uint32_t c = 0; c < SPH_DIM; c++) {
+            check("place after steps", p->id, c, k->x[c], near(p->x[c], s->cfg.spacing), 0);
+            if (body)
+                check("velocity after steps", p->id, c, k->v[c], near(p->v[c], set->c0 + fabs(p->v[c])), 0);
+        }
+        if (body || set->compressible)
+            check("density after steps", p->id, 0, k->d, near(p->d, 1), 0);
+        if (!o_is_solid(s, p))
+            continue;
+        for (int c = 0; c < KEPT; c++)
+            check("stress after steps", p->id, (uint32_t)c, k->dev[c],
+                  near(kept((const double(*)[3])p->dev, c), set->shear), 0);
+        check("plastic strain after steps", p->id, 0, k->plastic, near(p->plastic, 1), 0);
+        check("damage after steps", p->id, 0, k->root, near(p->root, 1), 0);
+    }
+}
+
+/* a tenth of the smallest limit */
+static double small_step(const o_scene *s)
+{
+    const o_limits l = o_find_limits(s);
+    const double of[] = {l.courant, l.viscous, l.force, l.gravity, l.diffusion};
+    double dt = 1e300;
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++)
+        if (of[k] > 0)
+            dt = o_min(dt, of[k]);
+    return 0.1 * dt;
+}
+
+static sph_status run_steps(sph_sim *sim, const plan *p, o_scene *s)
+{
+    sph_status st = SPH_OK;
+    look_scene(sim, p, s);
+    o_forces(s);
+    const double dt = small_step(s);
+    s->cfg.dt = dt;
+    looked_at = sim;
+    st = sph_reconfigure(sim, &s->cfg);
+    o_begin_steps(s, s->n);
+    for (uint32_t k = 1; !st && k <= p->steps && !s->undecided; k++) {
+        st = sph_step(sim);
+        o_step(s, k, dt, flaws_of);
+    }
+    if (!st && !s->undecided)
+        compare_trajectories(sim, s);
+    return st;
 }
 
 /* ---- a plan ---- */
@@ -238,7 +394,8 @@ static verdict compare(const plan *p, const char **why)
         o_sum_density(&scene);
     o_forces(&scene);
     look_results(sim, kernel, 4096);
-    compare_forces(&scene, kernel);
+    compare_forces(&scene);
+    compare_momentum(&scene);
     compare_limits(sim, &scene);
     look_scene(sim, p, &scene); /* totals and probes of the state that the kernel has now */
     o_refresh(&scene);
@@ -247,6 +404,11 @@ static verdict compare(const plan *p, const char **why)
         /* the books' powers need the sums once more */
         o_forces(&scene);
         compare_totals(sim, &scene);
+    }
+    *why = scene.undecided;
+    if (p->steps && !scene.undecided && run_steps(sim, p, &scene) != SPH_OK) {
+        *why = sph_status_text(sph_last(sim)->status);
+        return PLAN_REFUSED;
     }
     *why = scene.undecided;
     if (!p->still_step || scene.undecided)

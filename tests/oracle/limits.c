@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* limits.c: what each limit of the time step allows (Gray 2001 eq 2.30; Wickramarachchi 2009 eqs 3.88-3.90):
      courant    cfl h/(c + h max|mu|)       c: the fastest sound of any set; of solids with 4 mu/3 rho0 (Gray 5.52)
-     viscous    viscous_factor h^2/nu       nu of Morris, or alpha c h/(2 (DIM + 2)) of the artificial viscosity
+     viscous    viscous_factor h^2/nu       nu of Morris, or alpha c0 h/(2 (DIM + 2)) of the artificial viscosity
      force      force_factor sqrt(h/max|a|) gravity  gravity_factor h/(c + sqrt(g h))
-     diffusion  0.125 h/(delta c)
+     diffusion  0.125 h/(delta c0)          c0: the fastest of the bodies' sets, as both are made with it
    The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25; beside
    solids 0.22 times the cube root of (delta + nu/(h c) or alpha/8)/(0.01/8), times 0.75 (updated) or 0.42, but 0.05 at
    least. */
@@ -29,10 +29,12 @@ o_limits o_find_limits(const o_scene *s)
     const sph_config *c = &s->cfg;
     const double h = c->smoothing_length;
     o_limits l = {0, 0, 0, 0, 0, 0};
-    double sound = o_sound(c->eos, c->sound_speed), mu = 0, a = 0, g2 = 0;
+    double sound = 0, nominal = 0, mu = 0, a = 0, g2 = 0;
     for (uint32_t k = 0; k < s->sets; k++) {
         const o_set *set = &s->set[k];
         const double own = o_sound(set->eos, set->c0);
+        if (set->role == SPH_ROLE_FLUID || set->role == SPH_ROLE_SOLID)
+            nominal = o_max(nominal, set->c0);
         sound = o_max(sound, set->role == SPH_ROLE_SOLID ? sqrt(own * own + 4 * set->shear / (3 * set->rho0)) : own);
     }
     for (uint32_t k = 0; k < s->n; k++) {
@@ -47,11 +49,11 @@ o_limits o_find_limits(const o_scene *s)
     if (c->dt > 0)
         return l;
     const double nu = c->viscosity == SPH_MORRIS ? c->nu
-                    : c->viscosity ? c->alpha * sound * h / (2 * (SPH_DIM + 2)) : 0;
+                    : c->viscosity ? c->alpha * nominal * h / (2 * (SPH_DIM + 2)) : 0;
     l.courant = courant_number(c) * h / (sound + h * mu);
     l.viscous = nu > 0 ? c->viscous_factor * h * h / nu : 0;
     l.force = a > 0 ? c->force_factor * sqrt(h / a) : 0;
     l.gravity = g2 > 0 ? c->gravity_factor * h / (sound + sqrt(sqrt(g2) * h)) : 0;
-    l.diffusion = c->diffusion && c->delta > 0 ? 0.125 * h / (c->delta * sound) : 0;
+    l.diffusion = c->diffusion && c->delta > 0 ? 0.125 * h / (c->delta * nominal) : 0;
     return l;
 }

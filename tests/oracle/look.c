@@ -137,14 +137,16 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
     const sph_set *s = &sim->set[k];
     *o = (o_set){.role = s->role, .kind = s->kind, .eos = s->eos, .compressible = s->compressible, .no_slip = s->no_slip,
                  .mass = s->mass, .rho0 = s->rho0, .c0 = s->c0, .strength = s->strength};
-    double moved[SPH_DIM] = {0};
-    if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion)
-        sim->group[s->group].motion(sim->group[s->group].ctx, sim->now.time, moved, o->velocity);
-    if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion == sph_motion_steady)
-        for (int a = 0; a < SPH_DIM; a++)
-            o->accel[a] = ((const sph_steady *)sim->group[s->group].ctx)->a[a];
+    const double t = sim->now.time;
     for (int a = 0; a < SPH_DIM; a++) {
-        o->origin[a] = s->origin[a] + sim->cfg.lo[a] + moved[a];
+        if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion == sph_motion_steady) {
+            const sph_steady *m = sim->group[s->group].ctx;
+            o->start[a] = m->v[a];
+            o->accel[a] = m->a[a];
+        }
+        o->velocity[a] = o->start[a] + o->accel[a] * t;
+        o->moved[a] = o->start[a] * t + 0.5 * o->accel[a] * t * t;
+        o->origin[a] = s->origin[a] + sim->cfg.lo[a] + o->moved[a];
         o->normal[a] = s->normal[a];
         o->tangent[a] = s->tangent[a];
     }
@@ -206,6 +208,7 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
         o->root = b->damage[0] && set->role == SPH_ROLE_SOLID ? (double)b->damage[0][i] : 0;
         for (int k = 0; k < SPH_DIM; k++) {
             o->x[k] = s->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
+            o->home[k] = o->x[k] - set->moved[k];
             o->rest[k] = o->x[k] - (b->shift[k] ? (double)b->shift[k][i] * sim->grid.quantum : 0);
             const bool held = set->role == SPH_ROLE_SOLID && set->held >> k & 1;
             o->wall[k] = o->seen[k] = set->velocity[k];

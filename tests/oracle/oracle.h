@@ -38,7 +38,8 @@ typedef struct o_set {
     bool compressible, no_slip;
     double mass, rho0, c0, strength;          /* kg, kg/m^3, m/s; of walls as in sph_wall */
     double origin[3], normal[3], tangent[3];  /* of walls: a point of the face (m), into the fluid, along the face */
-    double velocity[3], accel[3];             /* m/s, m/s^2, of what moves as it is told */
+    double start[3], accel[3];                /* motion v t + a t^2/2 of what moves as it is told */
+    double velocity[3], moved[3];             /* m/s, m: its velocity and displacement now */
     double shear, yield, hardening, crack;    /* Pa, Pa, Pa, 1/s */
     uint32_t body, held;
 } o_set;
@@ -49,6 +50,7 @@ typedef struct o_particle {
     /* state */
     double x[3], v[3], d;      /* m, m/s, (rho - rho0)/rho0 */
     double rest[3];            /* reference position (m) */
+    double home[3];            /* of what moves as it is told: its place at displacement 0 */
     double dev[3][3];          /* deviatoric stress, Pa, without damage */
     double plastic, root;      /* equivalent plastic strain, D^(1/SPH_DIM) */
     /* what follows from the state alone */
@@ -165,6 +167,10 @@ void o_forces(o_scene *s);                     /* forces.c: everything before an
 /* a pair gives the home's acceleration `part` (m/s^2) with a scale; books.c keeps the powers of walls */
 void o_push(const o_scene *s, o_particle *i, const o_particle *j, const double *part, double scale);
 
+/* ---- steps.c: whole steps ---- */
+void o_begin_steps(o_scene *s, uint32_t room); /* forgets rates of steps before; of at most `room` particles */
+void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold));
+
 /* ---- limits.c ---- */
 typedef struct o_limits {
     double courant, viscous, force, gravity, diffusion; /* s, 0: none */
@@ -186,6 +192,6 @@ double o_diffused_per_rate(const o_scene *s, const o_particle *p); /* -p/rho^2 o
 typedef struct o_probe_value {
     o_sum cover, rho, p, v[3];
 } o_probe_value;
-o_probe_value o_probe(const o_scene *s, const double *x);
+o_probe_value o_probe(o_scene *s, const double *x);
 
 #endif

@@ -41,6 +41,8 @@ bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p)
     p->g = p->q > 0 ? slope / p->q : 0;
     p->w = o_weight(kernel, p->q, h);
     p->slope = fabs(slope) + 0.05 * fabs(o_weight_slope(kernel, h, h)) + fabs(p->g) * 0.1 * h;
+    if (p->bond) /* what is multiplied by x_ij has the errors of a g at |K| */
+        p->slope += fabs(p->g) * p->r * (1 + 0.1 * h / o_max(p->q, 1e-3 * h));
     p->value = p->w + 0.05 * o_weight(kernel, 0, h);
     p->volume = s->set[j->set].mass / j->rho;
     return true;

@@ -3,7 +3,7 @@
    water as well as what it is the image of); cover = sum (m/rho) W; below 1e-6 all are 0 (sph.h, sph_probe). */
 #include "oracle.h"
 
-o_probe_value o_probe(const o_scene *s, const double *x)
+o_probe_value o_probe(o_scene *s, const double *x)
 {
     o_probe_value o = {{0, 0}, {0, 0}, {0, 0}, {{0, 0}, {0, 0}, {0, 0}}};
     const double h = s->cfg.smoothing_length;
@@ -15,6 +15,8 @@ o_probe_value o_probe(const o_scene *s, const double *x)
         for (int k = 0; k < SPH_DIM; k++)
             r2 += (j->x[k] - x[k]) * (j->x[k] - x[k]);
         const double r = sqrt(r2), volume = s->set[j->set].mass / j->rho;
+        if (s->cfg.kernel == SPH_HAT || s->cfg.kernel == SPH_GAUSSIAN)
+            o_close(s, "a probe at a kernel's edge", r, s->support, s->support);
         if (r >= s->support)
             continue;
         const double w = volume * o_weight(s->cfg.kernel, r, h), size = w + 0.05 * volume * o_weight(s->cfg.kernel, 0, h);

@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* steps.c: whole steps dt from t, u: XSPH's velocity, index h: the middle of the step.
+     predictor-corrector  x' = x + dt (v + u) + dt^2/2 a, v_p = v + dt a, rho_p = rho + dt r, forces there,
+                          v' = v_p + dt/2 (a' - a), rho' = rho + dt/2 (r + r')                    (Gray 2001 2.26-2.28)
+                          in fluids rho_p also has dt (dt/dt_o) e, e = half of what r rose by in the step before
+     kick-drift-kick      v_h = v + dt/2 a, x' = x + dt (v_h + u), rho_h = rho + dt/2 r_o; rates r of x' - dt/2 v_h, v_h,
+                          rho_h; rho' = rho + dt r; forces of x', rho', v_h + dt/2 a; v' = v_h + dt/2 a'
+     leap-frog            the same with v_h = v + (dt - dt_o)/2 a for v, which is that of a middle, and v' = v_h + dt a'
+                          (Powell 2012 eq 1.40)
+     Runge-Kutta          forces at t; all of it half a step on; forces there; x' = x + dt (v_h + u_h), and v, rho by a
+                          whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
+   Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is where
+   its motion says at each of these times. At the end of a step damage grows, then sponges take. Faces: periodic ones let
+   in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated by. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "oracle.h"
+
+/* what a step remembers of its beginning */
+typedef struct beginning {
+    double x[3], v[3], d, rest[3], dev[3][3], plastic;
+    double a[3], u[3], rate, dev_rate[3][3]; /* rate: of the excess d, 1/s */
+    double rise;
+    bool turned[3]; /* by a mirror since */
+} beginning;
+static beginning *was;
+static double last;
+
+static double half(double dt) { return 0.5 * dt; }
+static bool is_held(const o_scene *s, const o_particle *p, int k)
+{
+    return o_is_solid(s, p) && s->set[p->set].held >> k & 1;
+}
+static bool evolves(const o_scene *s, const o_particle *p)
+{
+    return (o_is_body(s, p) || s->set[p->set].compressible) && s->cfg.density == SPH_CONTINUITY;
+}
+
+/* the rates that stand become those of the beginning */
+static void remember_rates(const o_scene *s)
+{
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        beginning *b = &was[i];
+        b->rate = evolves(s, p) ? p->rate.v / s->set[p->set].rho0 : 0;
+        for (int k = 0; k < 3; k++) {
+            b->a[k] = p->a[k].v;
+            b->u[k] = s->cfg.xsph > 0 ? p->drift[k].v : 0;
+            for (int l = 0; l < 3; l++)
+                b->dev_rate[k][l] = o_is_solid(s, p) ? p->stress_rate[k][l].v : 0;
+        }
+    }
+}
+static void remember_state(const o_scene *s)
+{
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        beginning *b = &was[i];
+        memcpy(b->x, p->x, sizeof b->x);
+        memcpy(b->v, p->v, sizeof b->v);
+        memcpy(b->rest, p->rest, sizeof b->rest);
+        memcpy(b->dev, p->dev, sizeof b->dev);
+        memset(b->turned, 0, sizeof b->turned);
+        b->d = p->d;
+        b->plastic = p->plastic;
+    }
+}
+
+void o_begin_steps(o_scene *s, uint32_t room)
+{
+    was = realloc(was, (room + 1) * sizeof *was);
+    if (!was)
+        abort();
+    memset(was, 0, room * sizeof *was);
+    last = 0;
+    remember_rates(s);
+}
+
+/* ---- what moves as it is told ---- */
+
+/* places at time t; velocities, and accelerations for Adami, as given: at t, or the mean of a step before t */
+static void tell(o_scene *s, double t, double dt_of_mean)
+{
+    for (uint32_t k = 0; k < s->sets; k++)
+        for (int a = 0; a < SPH_DIM; a++) {
+            o_set *set = &s->set[k];
+            const double to = set->start[a] * t + 0.5 * set->accel[a] * t * t;
+            set->origin[a] += to - set->moved[a];
+            set->moved[a] = to;
+            set->velocity[a] = set->start[a] + set->accel[a] * (t - half(dt_of_mean));
+        }
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        const o_set *set = &s->set[p->set];
+        for (int k = 0; k < SPH_DIM; k++) {
+            p->wall[k] = p->seen[k] = set->velocity[k];
+            p->origin[k] = set->origin[k];
+            if (o_is_body(s, p) && !is_held(s, p, k))
+                continue;
+            p->x[k] = p->home[k] + set->moved[k];
+            p->v[k] = set->velocity[k];
+        }
+    }
+}
+
+/* ---- faces ---- */
+
+static void pass_faces(o_scene *s)
+{
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        beginning *b = &was[i];
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++) {
+            const double lo = s->cfg.lo[k], hi = s->cfg.hi[k], length = hi - lo;
+            o_close(s, "a particle on a face", p->x[k], lo, (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing);
+            o_close(s, "a particle on a face", p->x[k], hi, (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing);
+            const bool low = p->x[k] < lo;
+            if (!low && p->x[k] < hi)
+                continue;
+            const uint32_t face = s->cfg.face[k][!low];
+            if (face == SPH_OPEN || is_held(s, p, k))
+                s->undecided = "a particle leaves";
+            if (face == SPH_PERIODIC) {
+                const double way = low ? length : -length;
+                p->x[k] += way;
+                p->rest[k] += way;
+            } else {
+                const double plane = low ? lo : hi;
+                if (o_is_solid(s, p)) /* its shear stress and its reference position would have to turn, too */
+                    s->undecided = "a solid goes through a mirror";
+                p->x[k] = 2 * plane - p->x[k];
+                p->v[k] = -p->v[k];
+                b->turned[k] = !b->turned[k];
+            }
+        }
+    }
+}
+/* component k of a vector of the beginning, in the frame that mirrors have turned since */
+static double turned(const beginning *b, int k, double v) { return b->turned[k] ? -v : v; }
+
+/* ---- pieces of steps ---- */
+
+static void restrain(o_scene *s)
+{
+    for (uint32_t i = 0; i < s->n; i++) /* yielding starts from what had yielded at the beginning of a whole step */
+        s->own[i].plastic = was[i].plastic;
+    o_yield(s);
+}
+
+/* places, velocities, densities and stresses by shares of the step from what was */
+static void go(o_scene *s, double drift, double bend, double kick, double rate)
+{
+    const double damping = s->cfg.damping;
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        const beginning *b = &was[i];
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
+            if (!is_held(s, p, k)) {
+                const double way = drift * (b->v[k] + b->u[k]) + bend * b->a[k];
+                p->x[k] = b->x[k] + way;
+                p->v[k] = b->v[k] + kick * b->a[k];
+                if (s->cfg.integrator == SPH_PREDICTOR_CORRECTOR || s->cfg.integrator == SPH_KICK_DRIFT_KICK)
+                    p->v[k] *= damping;
+            }
+        if (evolves(s, p))
+            p->d = b->d + rate * b->rate;
+        for (int k = 0; k < 3; k++)
+            for (int l = 0; l < 3; l++)
+                p->dev[k][l] = b->dev[k][l] + rate * b->dev_rate[k][l];
+    }
+    pass_faces(s);
+    restrain(s);
+}
+
+static void find_density(o_scene *s, uint32_t number)
+{
+    o_refresh(s);
+    if (s->cfg.density == SPH_SUMMATION)
+        o_sum_density(s);
+    if (s->cfg.shepard_every && number % s->cfg.shepard_every == 0)
+        o_filter_density(s);
+}
+
+/* what evolves by a whole step of the rates that stand, from what was */
+static void go_whole(o_scene *s, double dt)
+{
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        if (evolves(s, p))
+            p->d = was[i].d + dt * p->rate.v / s->set[p->set].rho0;
+        for (int k = 0; k < 3; k++)
+            for (int l = 0; l < 3; l++)
+                p->dev[k][l] = was[i].dev[k][l] + (o_is_solid(s, p) ? dt * p->stress_rate[k][l].v : 0);
+    }
+    restrain(s);
+}
+
+/* ---- the integrators ---- */
+
+static void predict_correct(o_scene *s, uint32_t number, double dt)
+{
+    const bool foresees = !o_has_solids(s);
+    const double foresight = dt < 2 * last ? dt * (dt / last) : 2 * dt;
+    tell(s, s->time + dt, 0);
+    go(s, dt, half(dt * dt), dt, dt);
+    for (uint32_t i = 0; i < s->n; i++)
+        if (foresees && evolves(s, &s->own[i]))
+            s->own[i].d += foresight * was[i].rise;
+    s->time += dt;
+    find_density(s, number);
+    o_forces(s);
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        beginning *b = &was[i];
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
+            if (!is_held(s, p, k))
+                p->v[k] = s->cfg.damping * (p->v[k] + half(dt) * (p->a[k].v - turned(b, k, b->a[k])));
+        if (evolves(s, p)) {
+            const double rise = p->rate.v / s->set[p->set].rho0 - b->rate;
+            p->d += half(dt) * rise - (foresees ? foresight * b->rise : 0);
+            b->rise = half(rise);
+        }
+        for (int k = 0; k < 3; k++)
+            for (int l = 0; l < 3 && o_is_solid(s, p); l++)
+                p->dev[k][l] += half(dt) * (p->stress_rate[k][l].v - b->dev_rate[k][l]);
+    }
+    o_yield(s);
+}
+
+/* kick-drift-kick; and leap-frog, whose velocity is ahead */
+static void kick_drift(o_scene *s, uint32_t number, double dt)
+{
+    const bool leaps = s->cfg.integrator == SPH_LEAP_FROG;
+    const double kick = leaps ? half(dt - last) : half(dt);
+    tell(s, s->time + dt, dt);
+    go(s, dt, dt * kick, kick, half(dt));
+    for (uint32_t i = 0; i < s->n; i++) /* rates: places of the middle */
+        for (int k = 0; k < SPH_DIM; k++)
+            s->own[i].x[k] -= half(dt) * s->own[i].v[k];
+    o_forces(s);
+    for (uint32_t i = 0; i < s->n; i++)
+        for (int k = 0; k < SPH_DIM; k++)
+            s->own[i].x[k] += half(dt) * s->own[i].v[k];
+    go_whole(s, dt);
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        beginning *b = &was[i];
+        b->rise = evolves(s, p) ? p->rate.v / s->set[p->set].rho0 : 0; /* what the next step begins with */
+        for (int k = 0; k < 3; k++)
+            for (int l = 0; l < 3; l++)
+                b->dev_rate[k][l] = o_is_solid(s, p) ? p->stress_rate[k][l].v : 0;
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
+            if (!is_held(s, p, k))
+                p->v[k] += half(dt) * turned(b, k, b->a[k]);
+    }
+    s->time += dt;
+    tell(s, s->time, 0);
+    find_density(s, number);
+    o_forces(s);
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        const beginning *b = &was[i];
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
+            if (!is_held(s, p, k))
+                p->v[k] = s->cfg.damping *
+                          (p->v[k] + half(dt) * ((leaps ? 2 : 1) * p->a[k].v - turned(b, k, b->a[k])));
+    }
+}
+
+static void runge_kutta(o_scene *s, uint32_t number, double dt)
+{
+    find_density(s, number);
+    o_forces(s);
+    remember_rates(s);
+    remember_state(s);
+    s->time += half(dt);
+    tell(s, s->time, 0);
+    go(s, half(dt), 0, half(dt), half(dt));
+    find_density(s, number);
+    o_forces(s);
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        beginning *b = &was[i];
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++) {
+            const double u = s->cfg.xsph > 0 ? p->drift[k].v : 0;
+            p->x[k] = b->x[k] + dt * (b->v[k] + half(dt) * b->a[k] + turned(b, k, u));
+            p->v[k] = s->cfg.damping * (b->v[k] + dt * turned(b, k, p->a[k].v));
+        }
+        if (!evolves(s, p))
+            p->d = o_is_body(s, p) ? b->d : p->d;
+        memcpy(p->rest, b->rest, sizeof p->rest);
+    }
+    go_whole(s, dt);
+    pass_faces(s);
+    s->time += half(dt);
+    tell(s, s->time, 0);
+}
+
+void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
+{
+    const uint32_t by = s->cfg.integrator;
+    remember_state(s);
+    if (by == SPH_PREDICTOR_CORRECTOR)
+        predict_correct(s, number, dt);
+    else if (by == SPH_KICK_DRIFT_KICK || by == SPH_LEAP_FROG)
+        kick_drift(s, number, dt);
+    else
+        runge_kutta(s, number, dt);
+    o_refresh(s);
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        const double f = exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);
+        float flaw[SPH_MAX_FLAWS];
+        if (s->cfg.damage && o_is_solid(s, p))
+            p->root = o_grown_root(s, p, flaw, flaws_of(p->id, flaw), dt);
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
+            if (!is_held(s, p, k))
+                p->v[k] = s->cfg.sponge_velocity[k] + (p->v[k] - s->cfg.sponge_velocity[k]) * f;
+    }
+    last = dt;
+    if (by == SPH_RUNGE_KUTTA || by == SPH_RUNGE_KUTTA_MOMENTUM)
+        return;
+    if (by == SPH_PREDICTOR_CORRECTOR) {
+        remember_rates(s);
+        return;
+    }
+    for (uint32_t i = 0; i < s->n; i++) { /* accelerations are of the end, rates of the middle */
+        was[i].rate = was[i].rise;
+        for (int k = 0; k < 3; k++) {
+            was[i].a[k] = s->own[i].a[k].v;
+            was[i].u[k] = s->cfg.xsph > 0 ? s->own[i].drift[k].v : 0;
+        }
+    }
+}
