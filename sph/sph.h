@@ -403,13 +403,13 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *solid, uint32_t *set, ui
    particles and V their volume (Gray 2001 eqs 5.40, 5.41); a particle with 20 flaws takes no more. Draws come from
    splitmix64 (Steele, Lea & Flood 2014) started at seed: first p, then the particle; the same on every machine. Call
    it once for a set, after its particles were added and before the first step. A set without flaws is never damaged. */
-#if SPH_DIM > 1
 #define SPH_MAX_FLAWS 20u /* of one particle */
 typedef struct sph_flaws {
     double k; /* 1/m^DIM */
     double m; /* 1 .. 50 */
     uint64_t seed;
 } sph_flaws;
+#if SPH_DIM > 1
 #define sph_add_flaws SPH_NAME(add_flaws)
 sph_status sph_add_flaws(sph_sim *sim, uint32_t set, const sph_flaws *flaws);
 /* The flaws of a particle: how many, and their thresholds in rising order into threshold[0 .. 19] (may be null). */
