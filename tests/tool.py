@@ -201,6 +201,16 @@ def options_that_may_change_are_applied():
     assert "step set by    fixed" not in fine(dam("end=0.03", "restore=b_0002.sph", "dt=0", "out=e", "dump=none")).out
 
 
+def a_damping_that_is_over_is_refused():
+    fine(dam("steps=20", "out=a", "dump=full", "damping=0.99", "damp_steps=10"))
+    last = max(f for f in files() if f.endswith(".sph"))
+    more = ("steps=5", "restore=" + last, "hash")
+    refused(dam("damping=0.98", "damp_steps=10", *more), "damping=0.98", "damp_steps=10", "step 20")
+    fine(dam("damp_steps=10", *more))
+    a, b = (fine(dam("damping=0.98", "damp_steps=30", *more)).out, fine(dam("damp_steps=30", *more)).out)
+    assert a != b
+
+
 def what_differs_from_a_dump_is_said_by_name_and_value():
     fine(dam("end=0.01", "frames=1", "out=a", "dump=full"))
     fine(dam("end=0.01", "frames=1", "out=p"))
