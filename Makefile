@@ -274,7 +274,7 @@ test:
 	$(Q)$(MAKE) --no-print-directory tests CFLAGS="$(CFLAGS) -DSPH_ASSERTS=1"
 	$(Q)EXEC="$(EXEC)" sh tests/run.sh $(BUILD) $(test_bins)
 	$(Q)sh tests/entries.sh
-	$(Q)$(MAKE) --no-print-directory tool-test
+	$(Q)$(MAKE) --no-print-directory tool-test CFLAGS="$(CFLAGS) -DSPH_ASSERTS=1"
 	$(Q)BUILD=$(BUILD) CC="$(CC)" MAKE="$(MAKE)" sh tests/bits.sh --quick
 
 tests: $(test_bins)

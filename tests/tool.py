@@ -111,7 +111,7 @@ def an_interrupted_run_names_no_state_that_is_not_there():
 
 
 def text_on_a_full_disk_is_a_failure():
-    for words in (("--version",), ("help",), ("run", "--help"), ("list",), ("render", "--help")):
+    for words in (("--version",), ("help",), ("run", "--help"), ("list",), ("list", "csv"), ("render", "--help")):
         with open("/dev/full", "w") as full:
             refused(sph(*words, stdout=full), "standard output", "No space left on device")
 
@@ -199,6 +199,16 @@ def options_that_may_change_are_applied():
     fine(dam("end=0.03", "frames=3", "out=d", "restore=b_0002.sph", "dt=0", "damping=1"))
     assert "dt=" not in pathlib.Path("d.csv").read_text().splitlines()[0]
     assert "step set by    fixed" not in fine(dam("end=0.03", "restore=b_0002.sph", "dt=0", "out=e", "dump=none")).out
+
+
+def a_damping_that_is_over_is_refused():
+    fine(dam("steps=20", "out=a", "dump=full", "damping=0.99", "damp_steps=10"))
+    last = max(f for f in files() if f.endswith(".sph"))
+    more = ("steps=5", "restore=" + last, "hash")
+    refused(dam("damping=0.98", "damp_steps=10", *more), "damping=0.98", "damp_steps=10", "step 20")
+    fine(dam("damp_steps=10", *more))
+    a, b = (fine(dam("damping=0.98", "damp_steps=30", *more)).out, fine(dam("damp_steps=30", *more)).out)
+    assert a != b
 
 
 def what_differs_from_a_dump_is_said_by_name_and_value():
@@ -637,6 +647,19 @@ def a_history_with_a_zero_byte_is_refused():
     refused(sph("history", "h.csv"), "h.csv", "byte 16 is zero")
 
 
+def a_stage_log_with_a_zero_byte_is_refused():
+    fine(dam("steps=3", "stage_log=a.log", "hash"))
+    pathlib.Path("b.log").write_bytes(state("a.log") + b"\0\n9 0123456789abcdef more\n")
+    refused(sph("diff", "a.log", "b.log"), "b.log", "zero byte")
+
+
+def a_name_with_a_line_feed_breaks_no_table():
+    fine(dam("end=0.01", "frames=1", "out=a"))
+    os.rename("a_0001.sph", "x\n1,2\n.sph")
+    fine(sph("export", "x\n1,2\n.sph", "out=t.csv"))
+    assert pathlib.Path("t.csv").read_text().splitlines()[1].startswith("x_m,y_m")
+
+
 def advice_is_the_same_from_every_folder():
     os.mkdir("elsewhere")
     a, b = (fine(sph("advise", "dam_break", "error=5%", cwd=f)) for f in (".", "elsewhere"))
@@ -674,6 +697,8 @@ def main():
     tests.sort(key=lambda f: f.__code__.co_firstlineno)
     began = time.time()
     passed = sum([run_one(t) for t in tests])
+    if not tests:
+        print("no test ran")
     print(f"  {'tool':<24} {passed:3d} passed {len(tests) - passed:3d} failed {time.time() - began:4.0f} s")
     return 0 if tests and passed == len(tests) else 1
 

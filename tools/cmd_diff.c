@@ -227,8 +227,11 @@ int cmd_diff(int argc, char **argv)
     unsigned char *a = host_read(argv[1], &na), *b = a ? host_read(argv[2], &nb) : NULL;
     int result = HOST_NO;
     if (a && b && na && nb) {
+        const bool cut_a = strlen((char *)a) != na, cut_b = strlen((char *)b) != nb;
         if (a[0] == 0x89 || b[0] == 0x89)
             result = diff_dumps(argv[1], argv[2]);
+        else if (cut_a || cut_b) /* what stands behind a zero byte would not be compared */
+            result = host_no("%s: neither a dump nor a log: it has a zero byte", cut_a ? argv[1] : argv[2]);
         else
             result = diff_logs((char *)a, (char *)b, argv[1], argv[2]);
     } else if (a && b)

@@ -25,8 +25,9 @@ static void write_csv(const cloud_table *t, FILE *f)
 {
     const char *const metre = dump_unit(t->d, "m");
     char name[96];
-    fprintf(f, "# %s, t = %.17g %s, step %llu\n", t->d->name, t->d->time, dump_unit(t->d, "s"),
-            (unsigned long long)t->d->step);
+    fputs("# ", f);
+    host_put_name(f, t->d->name);
+    fprintf(f, ", t = %.17g %s, step %llu\n", t->d->time, dump_unit(t->d, "s"), (unsigned long long)t->d->step);
     for (uint32_t k = 0; k < t->d->dim; k++) {
         const char axis[] = {(char)('x' + k), '\0'};
         cloud_name(axis, metre, name, sizeof name);

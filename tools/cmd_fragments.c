@@ -269,10 +269,12 @@ static void print_pieces(const dump_file *d, const body *b, const options *o, co
 static void write_pieces(const dump_file *d, const body *b, const pieces *p, FILE *f)
 {
     const char *const m = dump_unit(d, "m");
+    fputs("# fragments of ", f);
+    host_put_name(f, d->name);
     fprintf(f,
-            "# fragments of %s, t = %.17g %s, %u particles broken\npiece,particles,first_id,set,mass_%s,share,"
+            ", t = %.17g %s, %u particles broken\npiece,particles,first_id,set,mass_%s,share,"
             "length_%s,diameter_%s,edge_x_%s,edge_y_%s,edge_z_%s,x_%s,y_%s,z_%s\n",
-            d->name, d->time, dump_unit(d, "s"), p->broken, dump_unit(d, "kg"), m, m, m, m, m, m, m, m);
+            d->time, dump_unit(d, "s"), p->broken, dump_unit(d, "kg"), m, m, m, m, m, m, m, m);
     for (uint32_t i = 0; i < p->n; i++) {
         const piece *q = &p->list[i];
         fprintf(f, "%u,%u,%u,%u,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", i + 1, q->particles,

@@ -212,6 +212,12 @@ void *host_realloc(void *p, size_t bytes)
     return q;
 }
 
+void host_put_name(FILE *f, const char *name)
+{
+    for (; *name; name++)
+        fputc((unsigned char)*name < ' ' || *name == 0x7f ? '?' : *name, f);
+}
+
 unsigned char *host_read(const char *name, size_t *size)
 {
     bool in = !strcmp(name, "-");

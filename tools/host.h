@@ -48,6 +48,9 @@ bool host_split(const char *arg, char *name, size_t size, const char **value);
 /* index of text in a null-terminated list of names; a message that lists them and -1 if it is not there */
 int host_choice(const char *name, const char *text, const char *const *choices);
 
+/* a name, or another text from outside, inside a line of a file: control characters as ? */
+void host_put_name(FILE *f, const char *name);
+
 /* the whole of a file ("-": stdin) in memory from malloc, with a zero byte behind it; null after a message */
 unsigned char *host_read(const char *name, size_t *size);
 /* malloc and realloc that end the program with a message when there is no memory */

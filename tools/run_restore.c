@@ -49,12 +49,15 @@ static bool read_bytes(void *ctx, void *p, size_t n)
 /* ---- what differs ---- */
 
 static uint32_t said;
+static char list[1024]; /* of what differs */
+
 static void differ(const char *name, const char *there, const char *here)
 {
+    const size_t n = strlen(list);
     if (++said <= MOST_SAID)
-        fprintf(stderr, "  %s: %s in the dump, %s here\n", name, there, here);
+        snprintf(list + n, sizeof list - n, "%s%s: %s in the dump, %s here", n ? "; " : "", name, there, here);
     else if (said == MOST_SAID + 1)
-        fprintf(stderr, "  and more\n");
+        snprintf(list + n, sizeof list - n, "; and more");
 }
 
 /* what the kernel and the host let change; all else is the run's own */
@@ -165,6 +168,7 @@ static bool check_same(const run *r, const dump_file *d)
 {
     dump_file own;
     said = 0;
+    *list = '\0';
     if (!own_dump(r, &own))
         return false;
     compare_params(r, d);
@@ -175,7 +179,9 @@ static bool check_same(const run *r, const dump_file *d)
     if (!said && !same_setup(d, &own))
         differ("set-up (shapes, walls, flaws, options that the records do not hold)", "another one", "its own digest");
     dump_close(&own);
-    return !said || refuse(r, "the run that was asked for is another one; what differs is said above");
+    if (said)
+        host_no("restore=%s: of another run than the one asked for: %s", r->restore, list);
+    return !said;
 }
 
 /* ---- what can be seen before the scenes are compared ---- */
@@ -208,6 +214,19 @@ static bool check_kind(const run *r, const dump_file *d)
     return true;
 }
 
+/* a damping that is over before it begins would be taken and not act */
+static bool check_damping(const run *r, const dump_file *d)
+{
+    const int damping = build_find_param(&r->scene, "damping"), until = build_find_param(&r->scene, "damp_steps");
+    if (damping < 0 || until < 0 || !r->given[damping] || !(r->p[damping] < 1) || !(r->p[until] > 0) ||
+        (double)d->step < r->p[until])
+        return true;
+    host_no("restore=%s: damping=%g: damp_steps=%g ends it before step %llu of the dump; allowed: damping=1, or "
+            "damp_steps above that step, or 0 (to the end)",
+            r->restore, r->p[damping], r->p[until], (unsigned long long)d->step);
+    return false;
+}
+
 /* options that may change: as they were given, else as they are in the dump; true if one is not as in the dump */
 static bool take_free(run *r, const dump_file *d)
 {
@@ -227,7 +246,7 @@ bool run_restore(run *r)
     dump_file d;
     if (!dump_open(&d, r->restore))
         return false;
-    bool fine = check_kind(r, &d) && check_same(r, &d);
+    bool fine = check_kind(r, &d) && check_same(r, &d) && check_damping(r, &d);
     if (fine) {
         const bool changed = take_free(r, &d);
         bytes b = {d.bytes, d.size, 0, d.size};
