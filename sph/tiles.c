@@ -16,7 +16,7 @@
 typedef struct tile_choice {
     uint32_t eos;
     bool ratio, floor, inv_rho; /* p/rho^2 instead of p; p >= 0; whether 1/rho is asked for */
-    bool press;                 /* whether pressures are */
+    bool press, middle;         /* whether pressures are; whether it is the middle of a step */
     bool wall, is_image;        /* velocities of a wall's group; seen through an image */
 } tile_choice;
 
@@ -38,7 +38,7 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
     const sph_real *vel[SPH_DIM];
     vint sign[SPH_DIM], shift[SPH_DIM];
     vreal flip[SPH_DIM], group[SPH_DIM], back[SPH_DIM];
-    const sph_real half = (sph_real)(sph_in_middle(sim) ? sim->dt * 0.5 : 0);
+    const sph_real half = (sph_real)(sim->dt * 0.5);
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         pos[k] = r->b->pos[k] + s;
@@ -58,7 +58,7 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
                 const vint q = v_load_int(pos[k] + j);
                 const vreal v = c.wall ? group[k] : v_load(vel[k] + j);
                 const vreal x = v_from_int(c.is_image ? q * sign[k] + shift[k] : q - shift[k]) * quantum;
-                v_store(t->x[k] + at + j, SPH_HAS_RATES_FIRST ? x - back[k] * v : x);
+                v_store(t->x[k] + at + j, c.middle ? x - back[k] * v : x);
                 v_store(t->v[k] + at + j, c.is_image ? v * flip[k] : v);
             }
             const vreal e = v_load(excess + j);
@@ -78,12 +78,19 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
 {
     const sph_config *c = &r->sim->cfg;
     const bool floor = c->pressure_floor && !sph_is_solid(r->set), wall = r->set->role == SPH_ROLE_GHOST;
-    const tile_choice own = {r->set->eos,         !sph_weak_scheme(c->scheme),   floor, inv_rho,
-                             needs_press(r->sim), SPH_HAS_LAYERED_WALLS && wall, SPH_HAS_IMAGES && r->im->is_image};
+    const tile_choice own = {r->set->eos,
+                             !sph_weak_scheme(c->scheme),
+                             floor,
+                             inv_rho,
+                             needs_press(r->sim),
+                             sph_in_middle(r->sim),
+                             SPH_HAS_LAYERED_WALLS && wall,
+                             SPH_HAS_IMAGES && r->im->is_image};
     load_columns(r, t, COPIED, own);
 }
 
-/* Tait's water in a standard scheme, no image: the same text with the choices as constants; a line adds a path */
+/* Tait's water in a standard scheme, or rates in one, in the middle of a step; no image: the same text with the choices
+   as constants; a line adds a path */
 #define SPH_FAST_LOADS(X)                                                                                          \
     X(plain, false, false, true, false, COPIED)                                                                    \
     X(plain_homes, false, false, true, false, COPIED_HOMES)                                                        \
@@ -103,7 +110,7 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
 #define SPH_FAST_FN(name, floor_, inv_rho_, press_, wall_, copied)                                                 \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t)                                               \
     {                                                                                                              \
-        load_columns(r, t, copied, (tile_choice){SPH_TAIT, true, floor_, inv_rho_, press_, wall_, false});         \
+        load_columns(r, t, copied, (tile_choice){SPH_TAIT, true, floor_, inv_rho_, press_, !(press_), wall_, false}); \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
 #undef SPH_FAST_FN
