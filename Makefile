@@ -4,6 +4,9 @@
 #   make CC=clang OPT=-O3     make BUILD=build/asan OPT="-O1 -g -fsanitize=address,undefined"     make V=1
 
 BUILD   ?= build
+ifneq ($(words $(BUILD)),1)
+$(error BUILD is '$(BUILD)': it must be one path without spaces)
+endif
 ifeq ($(origin CC),default)
 CC       = cc
 endif
@@ -94,8 +97,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 .PHONY: count house gates gates-quick mutants tool-test
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
-.PHONY: restarts
-.PHONY: oracle oracle-breaks
+.PHONY: restarts install install-check oracle oracle-breaks
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -148,6 +150,30 @@ $(BUILD)/sph: $(tools_obj) $(tables_obj) $(build_obj) $(scene_obj) $(port_obj) $
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $(THREADS) $^ -o $@ $(PNG_LIBS) -lm
 
 -include $(shell find $(BUILD)/obj $(BUILD)/extra -name '*.d' 2>/dev/null)
+
+# ---- install: libraries, headers, a pkg-config file for each build, and the tool ----
+
+PREFIX ?= /usr/local
+DESTDIR ?=
+INSTALL_BUILDS ?= $(BUILDS)
+INSTALL_TOOL ?= $(TOOL)
+INSTALLED_HEADERS := sph/sph.h sph/modules.h sph/knobs.h sph/name.h sph/options.h sph/sponge.h
+version := $(shell sed -n 's/^.define SPH_VERSION \([0-9]*\)u.*/\1/p' sph/sph.h)
+install: $(INSTALL_BUILDS:%=$(BUILD)/libsph%.a) $(INSTALL_TOOL)
+	$(Q)mkdir -p "$(DESTDIR)$(PREFIX)/lib/pkgconfig" "$(DESTDIR)$(PREFIX)/include/sph"
+	$(Q)cp $(INSTALLED_HEADERS) "$(DESTDIR)$(PREFIX)/include/sph/"
+	$(Q)for b in $(INSTALL_BUILDS); do \
+		cp $(BUILD)/libsph$$b.a "$(DESTDIR)$(PREFIX)/lib/" || exit 1; \
+		case $$b in *d) double=1 ;; *) double=0 ;; esac; \
+		printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' "Name: sph$$b" \
+			"Description: smoothed particle hydrodynamics in fixed memory, $${b%?}-D, SPH_DOUBLE=$$double" \
+			'Version: $(version)' "Cflags: -I\$${includedir} -DSPH_DIM=$${b%?} -DSPH_DOUBLE=$$double" \
+			"Libs: -L\$${libdir} -lsph$$b -lm" >"$(DESTDIR)$(PREFIX)/lib/pkgconfig/sph$$b.pc" || exit 1; \
+	done
+	$(Q)if [ -n "$(INSTALL_TOOL)" ]; then mkdir -p "$(DESTDIR)$(PREFIX)/bin" && cp $(INSTALL_TOOL) "$(DESTDIR)$(PREFIX)/bin/"; fi
+# from a fresh copy of the tree: installed, used from C and C++; all of sph/ as one translation unit
+install-check:
+	$(Q)CC="$(CC)" MAKE="$(MAKE)" sh tests/install.sh
 
 # ---- examples: each examples/NAME.c is a program on the 2-D float build ----
 
@@ -517,5 +543,7 @@ help:
 	'make gates      does every gate see what it guards against?               -> $(BUILD)/gates.csv' \
 	'make gates-quick  those that take seconds' \
 	'make mutants    single changes of the kernel: does a test see each? (hours) -> tests/results/mutants.csv' \
+	'make install    libraries, headers, pkg-config files, the tool under PREFIX (DESTDIR, INSTALL_BUILDS="2f 3d")' \
+	'make install-check  that, from a fresh tree, used from C and C++; sph/ as one translation unit' \
 	'make clean      removes $(BUILD)' \
 	'Variables: CC OPT CFLAGS LDFLAGS AR SIZE NM GCC CLANG BUILD EXEC; V=1 shows every command.'

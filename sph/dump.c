@@ -13,6 +13,9 @@ static bool write_all(sph_stream *s, const sph_sim *sim, uint32_t fields, uint64
 #define KEEP_ROOM(name)
     SPH_OPTIONS(KEEP, KEEP, )
 #undef KEEP
+#undef KEEP_FREE
+#undef KEEP_FIXED
+#undef KEEP_ROOM
     r.work = sim->last_work;
     r.pairs = sim->last_pairs;
     r.passes = sim->last_passes;

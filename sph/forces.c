@@ -352,6 +352,9 @@ static const struct {
 #endif
     {{0}, NULL}};
 
+#undef SPH_FAST_FN
+#undef SPH_FAST_ROW
+
 static bool same_choice(const sph_choice *a, const sph_choice *b)
 {
     uint64_t x[3], y[3];

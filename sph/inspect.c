@@ -62,7 +62,7 @@ static const uint32_t *order_by_cell(sph_sim *sim)
 }
 
 /* squared distance of two particles (m^2), the shorter way round a periodic domain */
-static double apart2(const sph_sim *sim, const sph_buffer *b, uint32_t i, uint32_t j)
+static double shortest2(const sph_sim *sim, const sph_buffer *b, uint32_t i, uint32_t j)
 {
     double r2 = 0;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
@@ -82,7 +82,7 @@ static void look_at_cell(const sph_sim *sim, const uint32_t *at, uint32_t cell, 
         const uint32_t j = at[k];
         if (j == i || b->set[0][j] == SPH_DEAD || !(sph_body_at(sim, b, i) || sph_body_at(sim, b, j)))
             continue;
-        const double r2 = apart2(sim, b, i, j);
+        const double r2 = shortest2(sim, b, i, j);
         if (r2 < *least) {
             *least = r2;
             *id = b->id[0][j];

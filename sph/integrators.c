@@ -234,4 +234,5 @@ static const sph_integrator integrators[SPH_NO_INTEGRATOR + 1] = {
     [SPH_NO_INTEGRATOR] = ROW(true, first_forces, begins, stays),
 };
 
+#undef ROW
 const sph_integrator *sph_integrator_of(uint32_t integrator) { return &integrators[integrator]; }

@@ -42,9 +42,12 @@
 #elif defined(__clang__)
 #define SPH_UNROLL _Pragma("unroll")
 #define SPH_UNROLL_MANY _Pragma("unroll")
-#else
+#elif defined(__GNUC__) && !defined(__TINYC__)
 #define SPH_UNROLL _Pragma("GCC unroll 8")
 #define SPH_UNROLL_MANY _Pragma("GCC unroll 32")
+#else
+#define SPH_UNROLL
+#define SPH_UNROLL_MANY
 #endif
 #ifndef SPH_SMALL
 #define SPH_SMALL 0

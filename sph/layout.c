@@ -14,7 +14,7 @@ typedef struct layout {
     bool over; /* more than this machine can address */
 } layout;
 
-static void *take(layout *l, const char *name, size_t count, size_t size)
+static void *reserve(layout *l, const char *name, size_t count, size_t size)
 {
     if (count > (SIZE_MAX / 2 - l->at - SPH_ALIGN) / size) {
         l->over = true;
@@ -78,7 +78,7 @@ static void lay_out_arrays(const sph_config *c, const sph_grid *g, layout *l)
     };
     for (size_t a = 0; a < ARRAYS; a++)
         for (uint32_t k = 0; count[a] && k < arrays[a].components; k++)
-            put(l, arrays[a].at + k * sizeof(void *), take(l, arrays[a].name, count[a], arrays[a].size));
+            put(l, arrays[a].at + k * sizeof(void *), reserve(l, arrays[a].name, count[a], arrays[a].size));
 }
 
 /* ---- state buffers ---- */
@@ -93,7 +93,7 @@ static void lay_out_state(const sph_config *c, uint32_t buffer, layout *l)
     for (uint32_t f = 0; f < bit; f++)
         for (uint32_t k = 0; wanted >> f & 1 && k < sph_fields[f].comps; k++)
             put(l, first + (sph_fields[f].at + k) * sizeof(void *),
-                take(l, sph_fields[f].label, SPH_ROOM(c), sph_fields[f].bytes));
+                reserve(l, sph_fields[f].label, SPH_ROOM(c), sph_fields[f].bytes));
 }
 
 static uint32_t buffers_of(const sph_config *c)
@@ -105,7 +105,7 @@ static uint32_t buffers_of(const sph_config *c)
 
 static void lay_out(const sph_config *c, const sph_grid *g, layout *l)
 {
-    take(l, "header", 1, sizeof(sph_sim));
+    reserve(l, "header", 1, sizeof(sph_sim));
     lay_out_arrays(c, g, l);
     for (uint32_t b = 0; b < buffers_of(c); b++)
         lay_out_state(c, b, l);

@@ -148,4 +148,7 @@ void sph_options_take(sph_config *c, const sph_config *from)
 #define KEEP_FREE(name)
     SPH_OPTIONS(KEEP, KEEP, )
 #undef KEEP
+#undef KEEP_ROOM
+#undef KEEP_FIXED
+#undef KEEP_FREE
 }

@@ -7,7 +7,7 @@
 #if SPH_WITH_DUMP || SPH_WITH_RESTORE
 #define DUMP_FIELD 32u
 
-static bool is_finite(double x) { return x - x == 0; }
+static bool finite_double(double x) { return x - x == 0; }
 
 static uint32_t record_comps(const sph_record *r)
 {
@@ -63,7 +63,7 @@ static bool store_member(uint32_t member, uint64_t u, unsigned char *p)
         return false;
     switch (member) {
     case M_REAL:
-        if (!is_finite(d) || (d < 0 ? -d : d) > (SPH_DOUBLE ? DBL_MAX : (double)FLT_MAX))
+        if (!finite_double(d) || (d < 0 ? -d : d) > (SPH_DOUBLE ? DBL_MAX : (double)FLT_MAX))
             return false;
         const sph_real r = (sph_real)d;
         memcpy(p, &r, sizeof r);
@@ -73,7 +73,7 @@ static bool store_member(uint32_t member, uint64_t u, unsigned char *p)
     case M_U8: *p = (unsigned char)u; return u < 256;
     case M_BOOL: memcpy(p, &b, sizeof b); return u <= 1;
     case M_TIME: memcpy(p, &u, 8); return d == d;
-    case M_DOUBLE: memcpy(p, &u, 8); return is_finite(d);
+    case M_DOUBLE: memcpy(p, &u, 8); return finite_double(d);
     default: memcpy(p, &u, 8); return true;
     }
 }

@@ -28,6 +28,10 @@
 #include "modules.h"
 #include "name.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #if SPH_DOUBLE
 typedef double sph_real;
 #else
@@ -310,7 +314,11 @@ size_t sph_arena_bytes(const sph_config *cfg);
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) * (((use)&SPH_USE_BOOKS) ? 64u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
+#ifdef __cplusplus
+#define SPH_ARENA(name, bytes) unsigned char name alignas(SPH_ALIGN)[bytes]
+#else
 #define SPH_ARENA(name, bytes) _Alignas(SPH_ALIGN) unsigned char name[bytes]
+#endif
 
 /* Lays the arrays that the configuration chose into the arena, once, and gives an empty simulation.
    *sim is set only on SPH_OK. On failure *report (may be null) tells what and how many bytes are needed. */
@@ -771,5 +779,9 @@ sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ct
    SPH_DUMP_MISMATCH (a reduced dump, or one of another configuration, set-up or capacity). */
 #define sph_restore SPH_NAME(restore)
 sph_status sph_restore(sph_sim *sim, sph_source source, void *ctx);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

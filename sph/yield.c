@@ -12,7 +12,7 @@
 enum { YY = SPH_DIM > 1 ? 1 : 0, XY = SPH_DIM > 1 ? 2 : 0, XZ = SPH_DIM > 2 ? 3 : 0, YZ = SPH_DIM > 2 ? 4 : 0 };
 
 /* S:S of particle i; the out-of-plane parts included unless `plane` */
-static sph_real square(const sph_buffer *b, uint32_t i, bool plane)
+static sph_real invariant(const sph_buffer *b, uint32_t i, bool plane)
 {
     const sph_real x = b->stress[0][i];
     if (SPH_DIM == 1) /* yy = zz = -xx/2 */
@@ -30,7 +30,7 @@ static void yield_run(const sph_sim *sim, const sph_material *rock, const sph_bu
     const bool printed = sim->cfg.yield == SPH_VON_MISES_GRAY;
     const sph_real y0 = (sph_real)rock->yield, hard = (sph_real)rock->hardening, mu3 = 3 * rock->shear_r;
     for (uint32_t i = first; i < last; i++) {
-        const sph_real y = y0 + hard * b->plastic[0][i], s3 = (sph_real)1.5 * square(b, i, printed); /* 3 J2 */
+        const sph_real y = y0 + hard * b->plastic[0][i], s3 = (sph_real)1.5 * invariant(b, i, printed); /* 3 J2 */
         if (!(s3 > y * y))
             continue;
         const sph_real q = SPH_SQRT(s3);

@@ -122,5 +122,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_channel SPH_NAME(scene_channel)
 extern const scene scene_channel;
 const scene scene_channel = {"channel", "flow between two plates (Poiseuille, Couette; Morris, Fox & Zhu 1997)", param,
-                             PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                             PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                             history, scene_si};
 #endif
