@@ -299,7 +299,7 @@ static void compare_still(const sph_sim *sim, o_scene *s, double dt)
         }
         if (!s->cfg.damage || !o_is_solid(s, p))
             continue;
-        float flaw[SPH_MAX_FLAWS];
+        float flaw[O_MAX_FLAWS];
         const uint32_t flaws = look_flaws(sim, p->id, flaw);
         check("damage", p->id, 0, k->root, exact(o_grown_root(s, p, flaw, flaws, dt)), 0);
     }

@@ -88,8 +88,9 @@ static sph_status add_flaws(sph_sim *sim, const plan *p, const uint32_t *set)
         bool any = false; /* a set without particles can have none */
         for (uint32_t i = 0; i < p->points; i++)
             any |= p->point[i].set == p->fluids + k;
+        const sph_flaws flaws = {p->flaws[k].k, p->flaws[k].m, p->flaws[k].seed};
         if (!st && any && p->flaws[k].k > 0 && p->cfg.damage)
-            st = sph_add_flaws(sim, set[p->fluids + k], &p->flaws[k]);
+            st = sph_add_flaws(sim, set[p->fluids + k], &flaws);
     }
     return st;
 }

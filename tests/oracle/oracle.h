@@ -18,6 +18,7 @@
 #include "sph/sph.h"
 
 #define O_PI 3.14159265358979323846
+#define O_MAX_FLAWS 20 /* of a particle */
 
 /* ---- values with their scale ---- */
 

@@ -311,7 +311,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         const double f = exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);
-        float flaw[SPH_MAX_FLAWS];
+        float flaw[O_MAX_FLAWS];
         if (s->cfg.damage && o_is_solid(s, p))
             p->root = o_grown_root(s, p, flaw, flaws_of(p->id, flaw), dt);
         for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
