@@ -136,8 +136,8 @@ sph_sim *look_build(const plan *p, sph_report *why)
 static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
 {
     const sph_set *s = &sim->set[k];
-    *o = (o_set){.role = s->role, .kind = s->kind, .eos = s->eos, .compressible = s->compressible, .no_slip = s->no_slip,
-                 .mass = s->mass, .rho0 = s->rho0, .c0 = s->c0, .strength = s->strength};
+    *o = (o_set){.role = s->role, .kind = s->kind, .eos = s->eos, .compressible = s->compressible,
+                 .no_slip = s->no_slip, .mass = s->mass, .rho0 = s->rho0, .c0 = s->c0, .strength = s->strength};
     const double t = sim->now.time;
     for (int a = 0; a < SPH_DIM; a++) {
         if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion == sph_motion_steady) {
