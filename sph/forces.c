@@ -234,7 +234,7 @@ SPH_APART void force_solid(const sph_choice *c, const sph_sim *sim, sph_thread *
         static const sph_choice c = {__VA_ARGS__};                                                                 \
         const sph_factors own = sim->fac;                                                                          \
         for (uint32_t h = 0; h < homes; h++)                                                                       \
-            if (!c.wall || sph_is_body(&sim->set[t->home_set[h]]))                                                 \
+            if (sph_is_body(&sim->set[t->home_set[h]]) || !(c.wall || sph_diffusive(c.diffusion)))                 \
                 force_home(&c, &own, sim, t, h, c.wall);                                                           \
     }
 #define SPH_FAST_ROW(name, ...) {{__VA_ARGS__}, force_##name},
@@ -298,15 +298,17 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
    not used. */
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    const sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
-    fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&c);
-    if (fast) {
+    const sph_choice bodies = choice_of(sim, role == SPH_ROLE_GHOST);
+    fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&bodies);
+    const bool ghosts = role == SPH_ROLE_FLUID && sph_diffusive(bodies.diffusion); /* left over by a fast path */
+    if (fast)
         fast(sim, t, homes);
-        return;
-    }
-    for (uint32_t h = 0; h < homes; h++) {
-        if (role != SPH_ROLE_FLUID && !sph_is_body(&sim->set[t->home_set[h]]))
+    for (uint32_t h = 0; h < homes && (!fast || ghosts); h++) {
+        const bool body = sph_is_body(&sim->set[t->home_set[h]]);
+        if (body ? fast != NULL : role != SPH_ROLE_FLUID)
             continue;
+        sph_choice c = bodies;
+        c.diffusion = body ? c.diffusion : SPH_NO_DIFFUSION; /* density does not diffuse into walls */
         if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
             sph_boundary_force(sim, t, h);
         else if (SPH_WITH_SOLID && c.solid)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* compare.c: kernel and oracle side by side on one plan. The first forces give densities, rates, accelerations, stress
    rates, walls' values, powers, limits, totals and probes; a step of nearly no time gives what happens once a step
-   whatever its size: the Shepard filter, growing damage, sponge layers. Tolerance: 1e-11 (double) or 1e-5 (float) of the
-   natural scale, which is the sum of the magnitudes of what was added up. */
+   whatever its size: the Shepard filter, growing damage, sponge layers. Tolerance: 1e-11 (double) or 1e-5 (float) of
+   the natural scale, which is the sum of the magnitudes of what was added up. */
 #include <stdio.h>
 #include <string.h>
 
@@ -101,8 +101,8 @@ static void compare_forces(const o_scene *s)
     }
 }
 
-/* Momentum where nothing outside takes any: the sum of m a is that of gravity and body force; angular momentum of fluids
-   whose forces are along the lines between particles. */
+/* Momentum where nothing outside takes any: the sum of m a is that of gravity and body force; angular momentum of
+   fluids whose forces are along the lines between particles. */
 static void compare_momentum(const o_scene *s)
 {
     const sph_config *c = &s->cfg;

@@ -350,8 +350,8 @@ void plan_print(const plan *p)
         {"tait", "tait_gray", "linear", "isothermal"},
         {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"}};
     const sph_config *c = &p->cfg;
-    printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, xsph %g, "
-           "integrator %u, steps %u\n",
+    printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, "
+           "xsph %g, integrator %u, steps %u\n",
            (unsigned long long)p->seed, word[1][c->kernel], c->smoothing_length, c->spacing, c->rho0, c->sound_speed,
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->integrator,
