@@ -305,7 +305,7 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
         static const sph_choice c = {__VA_ARGS__};                                                                 \
         const sph_factors own = sim->fac;                                                                          \
         for (uint32_t h = 0; h < homes; h++)                                                                       \
-            if (!c.wall || sph_is_body(&sim->set[t->home_set[h]]))                                                 \
+            if (sph_is_body(&sim->set[t->home_set[h]]) || !(c.wall || sph_diffusive(c.diffusion)))                 \
                 force_home(&c, &own, sim, t, h, c.wall);                                                           \
     }
 #define SPH_FAST_ROW(name, ...) {{__VA_ARGS__}, force_##name},
@@ -441,18 +441,20 @@ static void factors_of(const sph_sim *sim, const sph_thread *t, uint32_t h, bool
    not used. */
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
+    sph_choice bodies = choice_of(sim, role == SPH_ROLE_GHOST);
     const sph_factors *f = &sim->fac;
     sph_factors own;
-    c.apart = SPH_HAS_APART && kept_apart(sim);
-    fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&c);
-    if (fast) {
+    bodies.apart = SPH_HAS_APART && kept_apart(sim);
+    fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&bodies);
+    const bool ghosts = role == SPH_ROLE_FLUID && sph_diffusive(bodies.diffusion); /* left over by a fast path */
+    if (fast)
         fast(sim, t, homes);
-        return;
-    }
-    for (uint32_t h = 0; h < homes; h++) {
-        if (role != SPH_ROLE_FLUID && !sph_is_body(&sim->set[t->home_set[h]]))
+    for (uint32_t h = 0; h < homes && (!fast || ghosts); h++) {
+        const bool body = sph_is_body(&sim->set[t->home_set[h]]);
+        if (body ? fast != NULL : role != SPH_ROLE_FLUID)
             continue;
+        sph_choice c = bodies;
+        c.diffusion = body ? c.diffusion : SPH_NO_DIFFUSION; /* density does not diffuse into walls */
         if (SPH_HAS_APART && c.apart && role != SPH_ROLE_FORCE_WALL) {
             factors_of(sim, t, h, role == SPH_ROLE_GHOST, &own);
             f = &own;

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
 # oracle.sh [SCENES]: random small scenes of each of the six builds against the oracle (tests/oracle); writes
-# BUILD/oracle.csv. Scenes that differ are made small and printed, one for each quantity. Of the scenes drawn, few may be
-# refused by the kernel, and few such that rounding decides them.
+# BUILD/oracle.csv. Scenes that differ are made small and printed, one for each quantity. Of the scenes drawn, few may
+# be refused by the kernel, and few such that rounding decides them.
 BUILD=${BUILD:-build}
 scenes=${1:-3400} out=$BUILD/oracle.csv bad=0
 echo "name,value,unit,target,ok" >"$out.tmp"

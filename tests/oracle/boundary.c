@@ -74,8 +74,8 @@ void o_boundary(o_scene *s, o_particle *i, const o_particle *j)
     } else {
         o_close(s, "a spacing behind a wall", perp, -dx, dx);
         const double f = perp < -dx ? 0 : along_normal(s, set, perp) * window_of(s, set, j, r, perp);
-        const double top = set->kind == SPH_WALL_KERNEL_FORCE ? set->strength * set->c0 * set->c0 / s->cfg.smoothing_length
-                                                              : set->strength;
+        const double h = s->cfg.smoothing_length;
+        const double top = set->kind == SPH_WALL_KERNEL_FORCE ? set->strength * set->c0 * set->c0 / h : set->strength;
         for (int k = 0; k < 3; k++)
             a[k] = f * j->normal[k];
         /* an error of r moves the window by its slope */

@@ -16,5 +16,5 @@ void o_contact(const o_scene *s, o_particle *i, const o_particle *j, const o_pai
     double a[3];
     for (int k = 0; k < 3; k++)
         a[k] = -m * push * p->g * p->x[k];
-    o_push(s, i, j, a, push > 0 ? m * size * p->slope : 0);
+    o_push(s, i, j, a, m * size * p->slope);
 }

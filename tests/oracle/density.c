@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* density.c: density that is not evolved.
      summation   rho_i = sum m_j W_ij over bodies and ghosts, i among them                  (Gray 2001 eq 2.19)
-     Shepard     rho_i = sum m_j W/sum (m_j/rho_j) W over the particles of one set          (Wickramarachchi 2009 6.3)
-   The second is summed as the excess d = (rho - rho0)/rho0: d_i = sum V_j d_j W/sum V_j W, the same for one set, for
-   which alone it makes sense (two fluids at rest must stay at rest). */
+     Shepard     rho_i = sum m_j W/sum (m_j/rho_j) W over the particles of one material     (Wickramarachchi 2009 6.3)
+   The second is summed as the excess d = (rho - rho0)/rho0: d_i = sum V_j d_j W/sum V_j W, the same for one material,
+   for which alone it makes sense (two fluids at rest must stay at rest). */
 #include "oracle.h"
 
 void o_sum_density(o_scene *s)
@@ -55,7 +55,7 @@ void o_filter_density(o_scene *s)
         for (uint32_t b = 0; b < s->m && o_is_body(s, i); b++) {
             const o_particle *j = &s->all[b];
             o_pair p;
-            if (j->set != i->set || !o_pair_of(s, i, j, &p))
+            if (!o_is_body(s, j) || !o_same_material(s, i, j) || !o_pair_of(s, i, j, &p))
                 continue;
             cover += p.volume * p.w;
             sum += p.volume * p.w * j->d;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* diffusion.c: density diffusion, between particles of one set (sph.h, SPH_MOLTENI ...):
-     drho_i = 2 delta h c sum (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + 0.01 h^2)
+/* diffusion.c: density diffusion, between particles of one material (sph.h, SPH_MOLTENI ...):
+     drho_i = 2 delta h c sum (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + eta)
+   with eta 0.01 h^2, beside Morris's viscosity his 1e-6 h^2.
    MOLTENI (Molteni & Colagrossi 2009): rho_H = 0. HYDROSTATIC (Fourtakas et al. 2019, linearised): the difference of
    density that gravity makes between the places of j and i, rho0 g . (x_j - x_i)/c^2 with
    the true sound speed c, so that still water feels none.
@@ -11,7 +12,7 @@ void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_p
 {
     const double h = s->cfg.smoothing_length;
     const o_set *set = &s->set[i->set];
-    if (s->cfg.diffusion == SPH_NO_DIFFUSION || j->set != i->set || !o_is_body(s, i))
+    if (s->cfg.diffusion == SPH_NO_DIFFUSION || !o_is_body(s, i) || !o_is_body(s, j) || !o_same_material(s, i, j))
         return;
     const double sound = o_sound(set->eos, set->c0);
     double drho = j->rho - i->rho, size = i->rho + j->rho;
@@ -27,6 +28,8 @@ void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_p
         size += fabs(part);
     }
     const double c = 2 * s->cfg.delta * h * set->c0 * p->volume;
-    const double f = -p->r * p->r * p->g / (p->r * p->r + 0.01 * h * h);
-    o_add(&i->diffused, c * drho * f, c * size * p->slope / o_max(p->r, 0.1 * h));
+    const double eta = s->cfg.viscosity == SPH_MORRIS ? 1e-6 * h * h : 0.01 * h * h;
+    const double f = -p->r * p->r * p->g / (p->r * p->r + eta);
+    const double near = eta / (p->r * p->r + eta) * h / o_max(p->r, 1e-4 * h);
+    o_add(&i->diffused, c * drho * f, c * size * p->slope / o_max(p->r, 0.01 * h) * (1 + near));
 }

@@ -4,6 +4,7 @@
      viscous    viscous_factor h^2/nu       nu of Morris, or alpha c0 h/(2 (DIM + 2)) of the artificial viscosity
      force      force_factor sqrt(h/max|a|) gravity  gravity_factor h/(c + sqrt(g h))
      diffusion  0.125 h/(delta c0)          c0: the fastest of the bodies' sets, as both are made with it
+   In the total form the configuration's sound speed counts too: contact pushes with it.
    The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25; beside
    solids 0.22 times the cube root of (delta + nu/(h c) or alpha/8)/(0.01/8), times 0.75 (updated) or 0.42, but 0.05 at
    least. */
@@ -29,7 +30,7 @@ o_limits o_find_limits(const o_scene *s)
     const sph_config *c = &s->cfg;
     const double h = c->smoothing_length;
     o_limits l = {0, 0, 0, 0, 0, 0};
-    double sound = 0, nominal = 0, mu = 0, a = 0, g2 = 0;
+    double sound = c->solid == SPH_TOTAL ? c->sound_speed : 0, nominal = sound, mu = 0, a = 0, g2 = 0;
     for (uint32_t k = 0; k < s->sets; k++) {
         const o_set *set = &s->set[k];
         const double own = o_sound(set->eos, set->c0);

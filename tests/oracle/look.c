@@ -88,8 +88,9 @@ static sph_status add_flaws(sph_sim *sim, const plan *p, const uint32_t *set)
         bool any = false; /* a set without particles can have none */
         for (uint32_t i = 0; i < p->points; i++)
             any |= p->point[i].set == p->fluids + k;
+        const sph_flaws flaws = {p->flaws[k].k, p->flaws[k].m, p->flaws[k].seed};
         if (!st && any && p->flaws[k].k > 0 && p->cfg.damage)
-            st = sph_add_flaws(sim, set[p->fluids + k], &p->flaws[k]);
+            st = sph_add_flaws(sim, set[p->fluids + k], &flaws);
     }
     return st;
 }
@@ -135,8 +136,8 @@ sph_sim *look_build(const plan *p, sph_report *why)
 static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
 {
     const sph_set *s = &sim->set[k];
-    *o = (o_set){.role = s->role, .kind = s->kind, .eos = s->eos, .compressible = s->compressible, .no_slip = s->no_slip,
-                 .mass = s->mass, .rho0 = s->rho0, .c0 = s->c0, .strength = s->strength};
+    *o = (o_set){.role = s->role, .kind = s->kind, .eos = s->eos, .compressible = s->compressible,
+                 .no_slip = s->no_slip, .mass = s->mass, .rho0 = s->rho0, .c0 = s->c0, .strength = s->strength};
     const double t = sim->now.time;
     for (int a = 0; a < SPH_DIM; a++) {
         if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion == sph_motion_steady) {

@@ -74,8 +74,9 @@ int main(int argc, char **argv)
     for (uint32_t k = 0; k < names; k++)
         printf("  %8llu  %s (first seed %llu)\n", (unsigned long long)of[k].seen, of[k].name,
                (unsigned long long)of[k].first);
-    printf("%llu scenes: %llu the same, %llu differ, %llu undecided, %llu refused, %.1f s\n", (unsigned long long)(n ? n : 1),
-           (unsigned long long)result[PLAN_SAME], (unsigned long long)result[PLAN_DIFFERS],
+    printf("%llu scenes: %llu the same, %llu differ, %llu undecided, %llu refused, %.1f s\n",
+           (unsigned long long)(n ? n : 1), (unsigned long long)result[PLAN_SAME],
+           (unsigned long long)result[PLAN_DIFFERS],
            (unsigned long long)result[PLAN_UNDECIDED], (unsigned long long)result[PLAN_REFUSED],
            (double)(clock() - start) / CLOCKS_PER_SEC);
     return result[PLAN_DIFFERS] > 0;

@@ -18,6 +18,7 @@
 #include "sph/sph.h"
 
 #define O_PI 3.14159265358979323846
+#define O_MAX_FLAWS 20 /* of a particle */
 
 /* ---- values with their scale ---- */
 
@@ -97,6 +98,13 @@ static inline bool o_is_body(const o_scene *s, const o_particle *p)
 }
 static inline bool o_is_solid(const o_scene *s, const o_particle *p) { return s->set[p->set].role == SPH_ROLE_SOLID; }
 static inline bool o_is_ghost(const o_scene *s, const o_particle *p) { return s->set[p->set].role == SPH_ROLE_GHOST; }
+/* fluid or solid both, with the same rest density, sound speed and equation of state */
+static inline bool o_same_material(const o_scene *s, const o_particle *a, const o_particle *b)
+{
+    const o_set *x = &s->set[a->set], *y = &s->set[b->set];
+    return x->role == y->role && x->eos == y->eos && !(x->rho0 < y->rho0) && !(y->rho0 < x->rho0) &&
+           !(x->c0 < y->c0) && !(y->c0 < x->c0);
+}
 static inline bool o_is_weak(const o_scene *s)
 {
     return s->cfg.scheme == SPH_WEAK || s->cfg.scheme == SPH_DIRECT || s->cfg.scheme == SPH_WEAK_WICK;

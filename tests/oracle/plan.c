@@ -145,7 +145,8 @@ static void draw_sets(plan *p)
         sph_solid *m = &p->solid[k];
         m->rho0 = chance(0.6) ? c->rho0 * range(0.5, 3) : 0;
         m->sound_speed = chance(0.5) ? c->sound_speed * range(0.3, 2) : 0;
-        const double rho0 = m->rho0 > 0 ? m->rho0 : c->rho0, sound = m->sound_speed > 0 ? m->sound_speed : c->sound_speed;
+        const double rho0 = m->rho0 > 0 ? m->rho0 : c->rho0;
+        const double sound = m->sound_speed > 0 ? m->sound_speed : c->sound_speed;
         m->mass = rho0 * cell * (chance(0.3) ? range(0.5, 1.5) : 1);
         m->shear = chance(0.1) && !c->yield && !c->damage ? 0 : rho0 * sound * sound * range(0.1, 0.8);
         m->yield = c->yield && chance(0.8) ? m->shear * range(0.005, 0.1) : 0;
@@ -203,7 +204,8 @@ static void turn_flat(const plan *p, plan_wall *w)
     double mid[3] = {0};
     for (int k = 0; k < SPH_DIM; k++)
         mid[k] = 0.5 * (p->cfg.lo[k] + p->cfg.hi[k]);
-    const double e[3] = {cos(angle), sin(angle), 0}, f[3] = {-sin(angle) * cos(tilt), cos(angle) * cos(tilt), sin(tilt)};
+    const double e[3] = {cos(angle), sin(angle), 0};
+    const double f[3] = {-sin(angle) * cos(tilt), cos(angle) * cos(tilt), sin(tilt)};
     for (int k = 0; k < SPH_DIM; k++) {
         w->lo[k] = mid[k] - 0.5 * len * (e[k] + (SPH_DIM == 3 ? f[k] : 0));
         w->hi[k] = SPH_DIM == 3 ? len * e[k] : w->lo[k] + len * e[k];
@@ -324,14 +326,15 @@ void plan_draw(plan *p, uint64_t seed)
     draw_sets(p);
     draw_domain(p);
     draw_points(p);
+    /* the printed forms divide by a pressure that goes through 0: rounding errors grow without bound */
     if (p->cfg.scheme == SPH_STANDARD_WICK || p->cfg.scheme == SPH_WEAK_WICK)
-        p->steps = p->steps && SPH_DOUBLE ? 1 : 0; /* they divide by a pressure that goes through 0: rounding errors grow without bound */
+        p->steps = p->steps && SPH_DOUBLE ? 1 : 0;
     p->wall_d = chance(0.5) ? 0 : range(0, 0.2);
     p->cfg.shepard_every = p->cfg.solid == SPH_NO_SOLID && p->cfg.density == SPH_CONTINUITY && chance(0.5) ? 1 : 0;
     p->cfg.max_particles = 4096;
     for (int k = 0; k < SPH_DIM; k++)
         if (p->cfg.sponge_low[k] > 0 || p->cfg.sponge_high[k] > 0)
-            p->cfg.sponge_rate = range(0.1, 3) * p->cfg.sound_speed / ((p->still_step ? PLAN_STILL : 1) * p->cfg.spacing);
+            p->cfg.sponge_rate = range(0.1, 3) * p->cfg.sound_speed / p->cfg.spacing / (p->still_step ? PLAN_STILL : 1);
 }
 
 void plan_print(const plan *p)
@@ -347,11 +350,14 @@ void plan_print(const plan *p)
         {"tait", "tait_gray", "linear", "isothermal"},
         {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"}};
     const sph_config *c = &p->cfg;
-    printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, xsph %g, integrator %u, steps %u\n",
+    printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, "
+           "xsph %g, integrator %u, steps %u\n",
            (unsigned long long)p->seed, word[1][c->kernel], c->smoothing_length, c->spacing, c->rho0, c->sound_speed,
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
-           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->integrator, p->steps);
-    printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, body force %d\n",
+           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->integrator,
+           p->steps);
+    printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
+           "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,
            c->stress_epsilon, c->xsph_strain ? " xsph_strain" : "", c->shepard_every, c->books, c->body_force != NULL);
     for (int k = 0; k < SPH_DIM; k++)
@@ -367,7 +373,8 @@ void plan_print(const plan *p)
     for (uint32_t k = 0; k < p->walls; k++)
         printf("  wall %u: %s%s%s %s layers %u strength %g faces %u, from %g to %g, velocity %g\n", k,
                word[8][p->wall[k].wall.kind], p->wall[k].wall.compressible ? " compressible" : "",
-               p->wall[k].wall.no_slip ? " no slip" : "", p->wall[k].flat ? "flat" : p->wall[k].inside ? "tank" : "block",
+               p->wall[k].wall.no_slip ? " no slip" : "",
+               p->wall[k].flat ? "flat" : p->wall[k].inside ? "tank" : "block",
                p->wall[k].wall.layers, p->wall[k].wall.strength, p->wall[k].faces, p->wall[k].lo[0], p->wall[k].hi[0],
                p->wall[k].motion.v[0]);
     for (uint32_t i = 0; i < p->points && i < 12; i++) {

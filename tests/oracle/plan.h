@@ -25,6 +25,11 @@ typedef struct plan_wall {
     sph_steady motion;
 } plan_wall;
 
+typedef struct plan_flaws { /* as sph_flaws, which 1-D has not */
+    double k, m;
+    uint64_t seed;
+} plan_flaws;
+
 typedef struct plan {
     uint64_t seed;
     sph_config cfg;
@@ -32,7 +37,7 @@ typedef struct plan {
     sph_fluid fluid[PLAN_SETS];
     sph_solid solid[PLAN_SETS];
     sph_steady held[PLAN_SETS];
-    sph_flaws flaws[PLAN_SETS]; /* k 0: none */
+    plan_flaws flaws[PLAN_SETS]; /* k 0: none */
     plan_wall wall[PLAN_WALLS];
     double wall_d; /* densities of compressible ghosts vary by so much */
     plan_point point[PLAN_POINTS];

@@ -19,7 +19,8 @@ o_probe_value o_probe(o_scene *s, const double *x)
             o_close(s, "a probe at a kernel's edge", r, s->support, s->support);
         if (r >= s->support)
             continue;
-        const double w = volume * o_weight(s->cfg.kernel, r, h), size = w + 0.05 * volume * o_weight(s->cfg.kernel, 0, h);
+        const double w = volume * o_weight(s->cfg.kernel, r, h);
+        const double size = w + 0.05 * volume * o_weight(s->cfg.kernel, 0, h);
         o_add(&o.cover, w, size);
         o_add(&o.rho, w * j->rho, size * j->rho);
         o_add(&o.p, w * j->p, size * fabs(j->p));

@@ -3,15 +3,15 @@
      predictor-corrector  x' = x + dt (v + u) + dt^2/2 a, v_p = v + dt a, rho_p = rho + dt r, forces there,
                           v' = v_p + dt/2 (a' - a), rho' = rho + dt/2 (r + r')                    (Gray 2001 2.26-2.28)
                           in fluids rho_p also has dt (dt/dt_o) e, e = half of what r rose by in the step before
-     kick-drift-kick      v_h = v + dt/2 a, x' = x + dt (v_h + u), rho_h = rho + dt/2 r_o; rates r of x' - dt/2 v_h, v_h,
-                          rho_h; rho' = rho + dt r; forces of x', rho', v_h + dt/2 a; v' = v_h + dt/2 a'
+     kick-drift-kick      v_h = v + dt/2 a, x' = x + dt (v_h + u), rho_h = rho + dt/2 r_o; rates r of x' - dt/2 v_h,
+                          v_h, rho_h; rho' = rho + dt r; forces of x', rho', v_h + dt/2 a; v' = v_h + dt/2 a'
      leap-frog            the same with v_h = v + (dt - dt_o)/2 a for v, which is that of a middle, and v' = v_h + dt a'
                           (Powell 2012 eq 1.40)
      Runge-Kutta          forces at t; all of it half a step on; forces there; x' = x + dt (v_h + u_h), and v, rho by a
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
-   Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is where
-   its motion says at each of these times. At the end of a step damage grows, then sponges take. Faces: periodic ones let
-   in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated by. */
+   Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
+   where its motion says at each of these times. At the end of a step damage grows, then sponges take. Faces: periodic
+   ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated by. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -311,7 +311,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         const double f = exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);
-        float flaw[SPH_MAX_FLAWS];
+        float flaw[O_MAX_FLAWS];
         if (s->cfg.damage && o_is_solid(s, p))
             p->root = o_grown_root(s, p, flaw, flaws_of(p->id, flaw), dt);
         for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)

@@ -5,7 +5,8 @@
      gradient   L = (-sum m_j v_ij (x) K g) M^-1, plain: 1/rho_i for M^-1
      rates      drho = -rho tr L,  dS = 2 mu (e - tr e/3) + W S - S W,  e, W: halves of L +- L^T     (Gray 5.7-5.9)
    A wall's T is its pressure's; fluids have no M and no S. Artificial stress: R = epsilon/rho^2 (weak: epsilon) times
-   the tensile part of a solid's sigma (Gray 5.22-5.28, Monaghan 2000). Strain rates see v + u where xsph_strain asks. */
+   the tensile part of a solid's sigma (Gray 5.22-5.28, Monaghan 2000). Strain rates see v + u where xsph_strain
+   asks. */
 #include "oracle.h"
 
 static double size_of(const double (*m)[3])

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* viscosity.c: with mu = v_ij . x_ij/(r^2 + 0.01 h^2), means of i and j for c and rho:
+/* viscosity.c: with mu = v_ij . x_ij/(r^2 + 0.01 h^2), means of i and j for c (c0) and rho:
      artificial   dv_i = -sum m_j Pi grad W, Pi = -(h/rho)(alpha c + beta h |mu|) mu          (Gray 2001 eq 2.18)
      approaching  the same where mu < 0, else 0                                (Wickramarachchi 2009 eq 3.18)
      Morris       dv_i = sum m_j 4 nu/(rho_i + rho_j) (x_ij . grad W)/(r^2 + eta) v_ij        (Morris, Fox & Zhu 1997)
@@ -57,7 +57,7 @@ void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p
         const double soft = MORRIS_SOFTENING * h * h, near = soft / (p->r * p->r + soft) * h / o_max(p->r, 1e-4 * h);
         scale = m * 2 * s->cfg.nu / rho * (p->slope / o_max(p->r, 0.01 * h)) * sqrt(o_dot(v, v)) * (1 + near);
     } else {
-        const double c = 0.5 * (i->c + j->c);
+        const double c = o_is_ghost(s, j) ? i->c : 0.5 * (i->c + j->c); /* a wall has no sound of its own */
         const double strength = h / rho * (s->cfg.alpha * c + s->cfg.beta * h * fabs(mu));
         for (int b = 0; b < 3; b++)
             a[b] = m * strength * mu * p->g * k[b];
