@@ -9,7 +9,7 @@
 
 /* A mirror face that turned the velocity of particle i along axis k at the sort turned the frame in which the particle
    was accelerated: -1; else 1. `ahead`: what its velocity has been given since of the old acceleration, s. */
-SPH_INLINE sph_real sph_turn(const sph_sim *sim, uint32_t k, uint32_t i, const sph_move *m, sph_real ahead)
+SPH_INLINE_BIG sph_real sph_turn(const sph_sim *sim, uint32_t k, uint32_t i, const sph_move *m, sph_real ahead)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const uint32_t from = b->id[0][i];
@@ -39,8 +39,8 @@ SPH_INLINE void sph_foresee_run(const sph_sim *sim, const sph_set *set, uint32_t
 
 /* v = damping (v + step (times a - a_o)) of a run of one set, along the axes on which it is free, with the acceleration
    a_o of the step's beginning, of which v had `ahead` (s) after the sort's share */
-SPH_INLINE void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step,
-                             sph_real times, sph_real ahead)
+SPH_INLINE_BIG void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step,
+                                 sph_real times, sph_real ahead)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, set), *at = b->id[0];
@@ -116,7 +116,7 @@ SPH_INLINE void sph_to_the_end(const sph_sim *sim, sph_span s)
 }
 
 /* x moves by d (m); the faces' rules apply as in the sort */
-SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
+SPH_INLINE_BIG void sph_place(const sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     sph_pos q[SPH_DIM];
@@ -150,7 +150,7 @@ SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const
 /* XSPH: places went with the drift velocity u_o that stood at the step's beginning. What they lack to second order is
    dt/2 (u - u_o); it is noted before velocities are kicked, which show whether a mirror face turned them (`ahead` as
    above), and gone behind that. Runge-Kutta drifts with u of the middle. */
-SPH_INLINE void sph_note_drift(const sph_sim *sim, sph_span s, sph_real ahead, sph_thread *t)
+SPH_INLINE_BIG void sph_note_drift(const sph_sim *sim, sph_span s, sph_real ahead, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const sph_real half = (sph_real)sim->dt * (sph_real)0.5;
@@ -161,7 +161,7 @@ SPH_INLINE void sph_note_drift(const sph_sim *sim, sph_span s, sph_real ahead, s
             t->aside[k][i - s.first] = half * (sph_drift(b, k)[i] - turn * sph_drift(o, k)[b->id[0][i]]);
         }
 }
-SPH_INLINE void sph_mend_drift(const sph_sim *sim, sph_span s, sph_thread *t)
+SPH_INLINE_BIG void sph_mend_drift(const sph_sim *sim, sph_span s, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     if (!sph_drift(b, 0))
