@@ -48,6 +48,22 @@ static void take_fields(const sph_sim *sim, sph_span s)
         }
 }
 
+/* displacements once more, where positions have changed since */
+void sph_displace_again(const sph_sim *sim, sph_span s)
+{
+    for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++)
+        for (uint32_t k = 0; k < f->comps && f->way == SPH_DISPLACED && sph_array(&sim->buf[sim->dst], f->at); k++)
+            displace(sim, sph_array(&sim->buf[sim->dst], f->at + k), sph_array(&sim->buf[sim->src], f->at + k), k, s);
+}
+
+/* the velocity beside their own that particles have gone with in this step, for sums in its middle */
+static void take_drift(const sph_sim *sim, sph_span s)
+{
+    for (uint32_t k = 0; k < SPH_DIM && sph_drift(&sim->buf[sim->dst], k) && sph_in_middle(sim); k++)
+        take(sph_drift(&sim->buf[sim->dst], k), sph_drift(&sim->buf[sim->src], k), sph_source_index(sim),
+             sizeof(sph_real), s);
+}
+
 /* one component of a field that evolves, and its rate, in buffers dst and src; to null: there are no more */
 typedef struct evolving {
     uint32_t field, comp;
@@ -74,6 +90,7 @@ static evolving next_evolving(const sph_sim *sim, const evolving *e)
 
 void sph_carry_fields(sph_sim *sim, sph_span s)
 {
+    take_drift(sim, s);
     if (!sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS))
         return;
     const uint32_t *at = sph_source_index(sim);

@@ -111,7 +111,10 @@ static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     restrain(sim, s);
     t->work += s.last - s.first;
 }
-static bool carries(const sph_sim *sim) { return sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS); }
+static bool carries(const sph_sim *sim)
+{
+    return sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) || (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
+}
 static const sph_pass pass_carry = {"carry", sph_local_chunks, carry_chunk, NULL, carries};
 
 /* predictor-corrector */
@@ -120,7 +123,9 @@ static void correct_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_span s = sph_chunk_span(sim, chunk);
     sph_correct_fields(sim, s);
     restrain(sim, s);
+    sph_note_drift(sim, s, 0, t);
     sph_correct(sim, s);
+    sph_mend_drift(sim, s, t);
     finish(sim, chunk, s, t);
 }
 static const sph_pass pass_correct = {"correct", sph_local_chunks, correct_chunk, finished, NULL};
@@ -141,11 +146,18 @@ static sph_status at_the_end(sph_sim *sim)
 }
 static const sph_pass pass_density = {"density", sph_local_chunks, density_chunk, at_the_end, NULL};
 
+static void kick(sph_sim *sim, sph_span s, sph_real times, sph_thread *t)
+{
+    sph_note_drift(sim, s, (sph_real)sim->dt * (sph_real)0.5, t);
+    sph_kick(sim, s, times);
+    sph_mend_drift(sim, s, t);
+}
+
 /* kick-drift-kick: the second kick */
 static void kick_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
-    sph_kick(sim, s, 1);
+    kick(sim, s, 1, t);
     finish(sim, chunk, s, t);
 }
 static const sph_pass pass_kick = {"kick", sph_local_chunks, kick_chunk, finished, NULL};
@@ -154,7 +166,7 @@ static const sph_pass pass_kick = {"kick", sph_local_chunks, kick_chunk, finishe
 static void velocity_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
-    sph_kick(sim, s, 2);
+    kick(sim, s, 2, t);
     finish(sim, chunk, s, t);
 }
 static const sph_pass pass_velocity = {"velocity", sph_local_chunks, velocity_chunk, finished, NULL};

@@ -63,6 +63,8 @@ void sph_carry_fields(sph_sim *sim, sph_span s);   /* after the sort: from src, 
 void sph_correct_fields(sph_sim *sim, sph_span s); /* + dt/2 (new rate - rate in src) */
 #define sph_retake_fields SPH_NAME(retake_fields_)
 void sph_retake_fields(sph_sim *sim, sph_span s);  /* from src again, + dt new rate */
+#define sph_displace_again SPH_NAME(displace_again_)
+void sph_displace_again(const sph_sim *sim, sph_span s); /* displacements once more: positions have changed since */
 /* a particle of b is displaced by d quanta along axis k otherwise than by the sort */
 #define sph_displace_fields SPH_NAME(displace_fields_)
 void sph_displace_fields(const sph_sim *sim, const sph_buffer *b, uint32_t i, uint32_t k, sph_pos d);

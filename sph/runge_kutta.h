@@ -4,40 +4,7 @@
 #ifndef SPH_RUNGE_KUTTA_H
 #define SPH_RUNGE_KUTTA_H
 
-#include "motion.h"
-
-/* x moves by d (m); the faces' rules apply as in the sort */
-SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
-{
-    const sph_buffer *b = &sim->buf[sim->dst];
-    sph_pos q[SPH_DIM];
-    sph_real v[SPH_DIM];
-    const double part = (double)sph_rounding(sim);
-    bool short_way = true;
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        double s = d[k] / sim->grid.quantum;
-        short_way &= sph_abs(d[k]) < sim->grid.length[k] / sim->grid.ncell[k];
-        q[k] = from[k] + (sph_pos)(short_way ? s < 0 ? s - part : s + part : 0);
-        v[k] = b->vel[k][i];
-    }
-    if (!short_way)
-        sph_fail_note(t, d[0] - d[0] == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE,
-                      sph_source_id(sim, i), d[0]);
-    int r = sph_enforce_faces(sim, q, v);
-    if (r == 2) {
-        t->left++;
-        if (sim->cfg.on_leave == SPH_FAIL || !sph_is_body(&sim->set[b->set[0][i]]))
-            sph_note_left(sim, q, sph_source_id(sim, i), t);
-        else
-            b->set[0][i] = SPH_DEAD;
-        return;
-    }
-    t->reflected += r == 1;
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        b->pos[k][i] = q[k];
-        b->vel[k][i] = v[k];
-    }
-}
+#include "kick.h"
 
 /* a wall goes on from the middle of the step to its end */
 SPH_INLINE void sph_advance_wall(const sph_sim *sim, const sph_set *set, uint32_t i, sph_thread *t)

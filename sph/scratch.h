@@ -69,6 +69,7 @@ typedef struct sph_thread {
             sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */
         };
         sph_block block;                /* the sort */
+        sph_real aside[SPH_DIM][SPH_LOCAL_CHUNK]; /* ways of a chunk's particles that they have still to go, m */
         uint8_t near[SPH_LOCAL_CHUNK];  /* 1: particle of the chunk may be inside a wall */
     };
     /* what a pass gathers over its chunks: order does not matter for any of these */

@@ -1,10 +1,18 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* smoothing.c: smoothed velocities for the strain rates of solids, u_i = xsph sum (m_j/rho_mean) (v_j - v_i) W (Gray
-   2001 eqs 2.22, 5.10); W as the kernel sees the pair, as in xsph.h: of one body's bonds at |K|. Array: xsph (state). Cost: a sweep before the forces. */
+   2001 eqs 2.22, 5.10); W as the kernel sees the pair, as in xsph.h: of one body's bonds
+   at |K|. Array: xsph (state). Cost: a sweep before the forces. */
 #include "reference.h"
 #include "smoothed.h"
 
 #if SPH_HAS_HAT
+/* where they are: in the middle of a step, where xsph still says how particles went, in acc, which is free until
+   forces */
+SPH_INLINE sph_real *smoothed(const sph_sim *sim, const sph_buffer *b, uint32_t k)
+{
+    return sph_in_middle(sim) ? b->acc[k] : b->xsph[k];
+}
+
 /* walls are smoothed by nobody: theirs is the velocity that every pair sees */
 void sph_load_smoothed(const sph_candidates *r, sph_real *to, uint32_t row)
 {
@@ -15,7 +23,8 @@ void sph_load_smoothed(const sph_candidates *r, sph_real *to, uint32_t row)
     for (uint32_t j = 0; j < r->n; j += SPH_W)
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             const uint32_t i = r->first + j;
-            v_store(to + k * row + j, sph_seen_vector(r, k, v_load(r->b->vel[k] + i) + v_load(r->b->xsph[k] + i)));
+            const vreal u = v_load(r->b->vel[k] + i) + v_load(smoothed(r->sim, r->b, k) + i);
+            v_store(to + k * row + j, sph_seen_vector(r, k, u));
         }
 }
 
@@ -56,7 +65,7 @@ static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     const uint32_t i = t->home_at[h], held = sph_held(sim, &sim->set[t->home_set[h]]);
     const sph_real scale = sim->fac.value * (sph_real)(2 * sim->cfg.xsph);
     for (uint32_t k = 0; k < SPH_DIM; k++)
-        sim->buf[sim->dst].xsph[k][i] = held >> k & 1 ? 0 : v_fold(t->sum[k][h]) * scale;
+        smoothed(sim, &sim->buf[sim->dst], k)[i] = held >> k & 1 ? 0 : v_fold(t->sum[k][h]) * scale;
 }
 
 static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)

@@ -179,7 +179,7 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* Integrators. All are of second order in time in every field, with walls and forces that change with time and steps
-   that change (but for XSPH's drift: first order). PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a
+   that change. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a
    step; in fluids the predicted density foresees how its rate rises (kick.h): it stands a Courant number of 0.5.
    KICK_DRIFT_KICK: velocity Verlet; density and stress go by the rates of the step's middle, so a step takes two sweeps
    (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1, the same with velocities that are kept half a step ahead;

@@ -18,6 +18,7 @@ typedef struct tile_choice {
     bool ratio, floor, inv_rho; /* p/rho^2 instead of p; p >= 0; whether 1/rho is asked for */
     bool press, middle;         /* whether pressures are; whether it is the middle of a step */
     bool wall, is_image;        /* velocities of a wall's group; seen through an image */
+    bool drifts;                /* positions go with a velocity beside the own, too */
 } tile_choice;
 
 /* In the middle of a step, at whose end the particles stand, they are seen half a step's way back. A pair that is
@@ -58,7 +59,8 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
                 const vint q = v_load_int(pos[k] + j);
                 const vreal v = c.wall ? group[k] : v_load(vel[k] + j);
                 const vreal x = v_from_int(c.is_image ? q * sign[k] + shift[k] : q - shift[k]) * quantum;
-                v_store(t->x[k] + at + j, c.middle ? x - back[k] * v : x);
+                const vreal way = c.drifts ? v + v_load(sph_drift(r->b, k) + s + j) : v;
+                v_store(t->x[k] + at + j, c.middle ? x - back[k] * way : x);
                 v_store(t->v[k] + at + j, c.is_image ? v * flip[k] : v);
             }
             const vreal e = v_load(excess + j);
@@ -74,6 +76,12 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
 /* standard rates ask for no pressure */
 static bool needs_press(const sph_sim *sim) { return sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD); }
 
+/* whether what is seen half a step back went with XSPH's velocity too (motion.h) */
+SPH_INLINE bool drifts_beside(const sph_candidates *r, bool wall)
+{
+    return sph_in_middle(r->sim) && !wall && sph_drift(r->b, 0) != NULL;
+}
+
 SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
 {
     const sph_config *c = &r->sim->cfg;
@@ -85,7 +93,8 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
                              needs_press(r->sim),
                              sph_in_middle(r->sim),
                              SPH_HAS_LAYERED_WALLS && wall,
-                             SPH_HAS_IMAGES && r->im->is_image};
+                             SPH_HAS_IMAGES && r->im->is_image,
+                             drifts_beside(r, wall)};
     load_columns(r, t, COPIED, own);
 }
 
@@ -110,7 +119,8 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
 #define SPH_FAST_FN(name, floor_, inv_rho_, press_, wall_, copied)                                                 \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t)                                               \
     {                                                                                                              \
-        load_columns(r, t, copied, (tile_choice){SPH_TAIT, true, floor_, inv_rho_, press_, !(press_), wall_, false}); \
+        const tile_choice own = {SPH_TAIT, true, floor_, inv_rho_, press_, !(press_), wall_, false, false};        \
+        load_columns(r, t, copied, own);                                                                           \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
 #undef SPH_FAST_FN
@@ -122,7 +132,8 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, bool inv_rho, bool home
     const bool floor = press && c->pressure_floor && !sph_is_solid(r->set);
     const uint32_t copied = homes ? COPIED_HOMES : COPIED;
     const bool water = SPH_IS(r->set->eos, TAIT) && SPH_IS(c->scheme, STANDARD);
-    const bool usual = SPH_WITH_FAST_PATHS && (water || !press) && !r->im->is_image;
+    const bool usual = SPH_WITH_FAST_PATHS && (water || !press) && !r->im->is_image &&
+                       !drifts_beside(r, wall);
     (void)copied;
 #define SPH_FAST_TRY(name, floor_, inv_rho_, press_, wall_, copied_)                                               \
     if (usual && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) && wall == (wall_) &&             \

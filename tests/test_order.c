@@ -23,7 +23,7 @@ static const char *const names[SPH_INTEGRATORS] = {"predictor-corrector", "kick-
 typedef struct scene {
     const char *name;
     uint32_t scheme, viscosity, diffusion, gradient, solid, eos, wall; /* wall: kind + 1, 0: none */
-    bool uneven, pushed, compressible, no_slip, mirror, held;
+    bool uneven, pushed, compressible, no_slip, mirror, held, drift, smooth;
 } scene;
 
 typedef struct result {
@@ -72,6 +72,8 @@ static sph_config config_of(const scene *s, uint32_t integrator)
     c.gradient = s->gradient;
     c.solid = s->solid;
     c.eos = s->eos;
+    c.xsph = s->drift || s->smooth ? 0.5 : 0;
+    c.xsph_strain = s->smooth;
     c.body_force = s->pushed ? push : NULL;
     c.gravity[ALONG] = s->wall ? -10 : 0;
     c.max_particles = KEPT;
@@ -279,6 +281,19 @@ static void walls_that_move(void **state)
     all_are_of_second_order(s, COUNT(s));
 }
 
+static void velocities_that_are_smoothed(void **state)
+{
+    static const scene s[] = {
+        {"XSPH", .viscosity = SPH_INVISCID, .drift = true},
+        {"XSPH, uneven, Morris", .viscosity = SPH_MORRIS, .drift = true, .uneven = true},
+        {"XSPH, total", .solid = SPH_TOTAL, .drift = true},
+        {"smoothed strain rates, corrected", .solid = SPH_CORRECTED, .smooth = true},
+        {"XSPH between mirrors", .mirror = true, .drift = true},
+    };
+    (void)state;
+    all_are_of_second_order(s, COUNT(s));
+}
+
 static void mirrors(void **state)
 {
     static const scene s[] = {
@@ -294,6 +309,7 @@ int main(void)
     const struct CMUnitTest list[] = {
         subject(fluids_in_every_scheme), subject(solids_in_every_form),        subject(steps_of_changing_length),
         subject(walls_that_move),        subject(forces_that_change_with_time), subject(mirrors),
+        subject(velocities_that_are_smoothed),
     };
     return run_subjects("order", list);
 }
