@@ -3,6 +3,9 @@
    W/sum (m_j/rho_j) W (Wickramarachchi 2009 eq 6.3). Array: tmp, the new density until all have read the old one.
    Cost: a sweep and a local pass. */
 #include "pair.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(density)
 
 #if SPH_HAS_FILTERS
 enum { SUM_MW, SUM_VW };

@@ -3,6 +3,9 @@
    that the integrator stands. */
 #include "factors.h"
 #include "kernels.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(factors)
 
 /* The predictor-corrector evaluates forces once, at the predicted state, and keeps them: on an oscillation w it
    multiplies the amplitude by 1 + (w dt)^4/4 a step (from mu^2 - (1 + 3z/2) mu + z/2 = 0, z = i w dt). Sound of the

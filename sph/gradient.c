@@ -7,6 +7,9 @@
    smaller than six tenths of what a particle in the corner of a block has, 2^-SPH_DIM on every axis (lone particles,
    pairs, drops). */
 #include "gradient.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(gradient)
 
 #if SPH_HAS_FLUID_GRADIENT
 void sph_load_gradient(const sph_candidates *r, sph_real *to, uint32_t row)

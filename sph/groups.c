@@ -2,6 +2,9 @@
 /* groups.c: walls that move or vanish, and held sets that move or are let go: where their group is at a time is what
    its host says. */
 #include "locals.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(groups)
 
 #if SPH_HAS_GROUPS
 

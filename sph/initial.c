@@ -2,6 +2,9 @@
 /* initial.c: initial fields: velocity and density by a function of position, density by hydrostatic pressure. Runs
    between steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be right. */
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(initial)
 
 #if SPH_WITH_FIELDS
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx)

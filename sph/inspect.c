@@ -4,6 +4,9 @@
 #include "locals.h"
 #include "reading.h"
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(inspect)
 
 #if SPH_WITH_INSPECT
 static const char *const texts[SPH_FINDINGS] = {

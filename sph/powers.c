@@ -5,6 +5,9 @@
    Arrays: power (4 reals a particle), partial (5 doubles a chunk). Cost: a loop over particles in double at a step's
    end. */
 #include "locals.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(powers)
 
 #if SPH_WITH_BOOKS
 /* what the motion of a held set has added to its kinetic energy in this step, J/kg: exact, so that velocities may

@@ -3,6 +3,9 @@
    the faces of the domain are seen as by the sweep. Cost: a loop over all particles a point. */
 #include "kernels.h"
 #include "reading.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(probes)
 
 #if SPH_WITH_PROBES
 /* W(r) in double for one particle */

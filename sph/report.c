@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* report.c: the texts of statuses and of limits of the step, and reports outside a simulation. */
 #include "report.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(report)
 
 static const char *const status_texts[SPH_STATUS_COUNT] = {
 #define SPH_STATUS_TEXT(name, text) text,

@@ -2,6 +2,9 @@
 /* smoothing.c: smoothed velocities for the strain rates of solids, u_i = xsph sum (m_j/rho_mean) (v_j - v_i) W (Gray
    2001 eqs 2.22, 5.10). Array: xsph (state). Cost: a sweep before the forces. */
 #include "smoothed.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(smoothing)
 
 #if SPH_HAS_HAT
 /* walls are smoothed by nobody: theirs is the velocity that every pair sees */

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* totals.c: mass, momentum and energies of fluid and solid, and the books that the steps keep. */
 #include "reading.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(totals)
 
 #if SPH_WITH_TOTALS
 /* what solids have besides: (1 - D) S:S/(4 mu), and the work of yielding */
