@@ -12,20 +12,27 @@ SPH_OBJECT(arithmetic)
 
 /* ---- the machine ---- */
 
-/* The operands come from volatile memory, so that no compiler can do the sums itself, and where a rounding mode is looked
-   for the sums go back to it, so that no register is wider. */
-static const char *broken_machine(void)
+/* operands come from volatile memory, so that no compiler can do the sums itself; here the sums go back to it, so that no
+   register is wider */
+static bool rounds_to_nearest(void)
 {
-    volatile sph_real v_one = 1, v_half = (sph_real)0.5, sum;
-    volatile sph_real v_eps = SPH_DOUBLE ? (sph_real)2.220446049250313e-16 : (sph_real)1.1920929e-7;
-    volatile sph_real v_least = SPH_DOUBLE ? (sph_real)2.2250738585072014e-308 : (sph_real)1.17549435e-38f;
-    const sph_real one = v_one, e = v_eps, up = one + e, down = one - e, half = e * v_half, quarter = half * v_half;
+    volatile sph_real one = 1, e = SPH_DOUBLE ? (sph_real)2.220446049250313e-16 : (sph_real)1.1920929e-7;
+    volatile sph_real up = one + e, quarter = e * (sph_real)0.25, sum;
     sum = one + quarter; /* up: 1 + e; down: -1 - e for the negative one; towards zero: 1 where 1 + e is nearer */
     bool nearest = sum == one;
     sum = -one - quarter;
     nearest &= sum == -one;
-    sum = one + (half + quarter);
-    if (!nearest || sum != up)
+    sum = one + quarter * 3;
+    return nearest && sum == up;
+}
+
+static const char *broken_machine(void)
+{
+    volatile sph_real v_one = 1, v_half = (sph_real)0.5;
+    volatile sph_real v_eps = SPH_DOUBLE ? (sph_real)2.220446049250313e-16 : (sph_real)1.1920929e-7;
+    volatile sph_real v_least = SPH_DOUBLE ? (sph_real)2.2250738585072014e-308 : (sph_real)1.17549435e-38f;
+    const sph_real one = v_one, e = v_eps, up = one + e, down = one - e, half = e * v_half;
+    if (SPH_WITH_OBJECT_PROBES && !rounds_to_nearest())
         return "a rounding mode other than to nearest";
     /* (1 + e/2) + e/2 is 1 twice rounded, 1 + e in excess precision */
     if (one + half + half != 1)
