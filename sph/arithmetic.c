@@ -12,8 +12,8 @@ SPH_OBJECT(arithmetic)
 
 /* ---- the machine ---- */
 
-/* operands come from volatile memory, so that no compiler can do the sums itself; here the sums go back to it, so that no
-   register is wider */
+/* operands come from volatile memory, so that no compiler can do the sums itself; here the sums go back to it, so that
+   no register is wider */
 static bool rounds_to_nearest(void)
 {
     volatile sph_real one = 1, e = SPH_DOUBLE ? (sph_real)2.220446049250313e-16 : (sph_real)1.1920929e-7;
@@ -75,25 +75,32 @@ static const char *broken_object(const sph_object *o)
             return texts[k];
     return NULL;
 }
+
+static const sph_object *const objects[] = {
+#define OBJECT(name) &SPH_NAME(object_##name##_),
+    SPH_OBJECTS(OBJECT)
+#undef OBJECT
+};
+
+static const char *broken_objects(const char **allowed)
+{
+    const char *wrong = NULL;
+    for (uint32_t k = 0; !wrong && k < sizeof objects / sizeof *objects; k++)
+        if (objects[k] && (wrong = broken_object(objects[k])) != NULL)
+            *allowed = objects[k]->allowed;
+    return wrong;
+}
+#else
+static const char *broken_objects(const char **allowed)
+{
+    (void)allowed;
+    return NULL;
+}
 #endif
 
 const char *sph_broken_arithmetic(const char **allowed)
 {
-    const char *wrong = broken_machine();
+    const char *wrong = SPH_NO_PROBE ? NULL : broken_machine();
     *allowed = "IEEE 754 as written";
-    if (SPH_NO_PROBE)
-        return NULL;
-#if SPH_WITH_OBJECT_PROBES
-    static const sph_object *const objects[] = {
-#define OBJECT(name) &SPH_NAME(object_##name##_),
-        SPH_OBJECTS(OBJECT)
-#undef OBJECT
-    };
-    for (uint32_t k = 0; !wrong && k < sizeof objects / sizeof *objects; k++)
-        if (objects[k]) {
-            wrong = broken_object(objects[k]);
-            *allowed = objects[k]->allowed;
-        }
-#endif
-    return wrong;
+    return wrong || SPH_NO_PROBE ? wrong : broken_objects(allowed);
 }

@@ -22,7 +22,8 @@ static const char *const limit_texts[SPH_LIMITS] = {
 };
 const char *sph_limit_text(uint32_t limit) { return limit < SPH_LIMITS ? limit_texts[limit] : "unknown"; }
 
-__attribute__((noinline)) sph_status sph_tell(sph_report *report, const char *what, const char *allowed, double value, sph_status status)
+__attribute__((noinline)) sph_status sph_tell(sph_report *report, const char *what, const char *allowed, double value,
+                                              sph_status status)
 {
     if (report)
         *report = SPH_REPORT(status, what, allowed, "", value);
