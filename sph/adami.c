@@ -9,6 +9,9 @@
    reading the densities; a local pass then makes them the wall's density and velocity. Cost: a sweep whose homes are
    wall particles. */
 #include "pair.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(adami)
 
 #if SPH_WITH_WALL_ADAMI
 enum { SUM_W, SUM_PW, SUM_RW, SUM_UW = SUM_RW + SPH_DIM, SUMS = SUM_UW + SPH_DIM };

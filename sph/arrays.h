@@ -4,8 +4,8 @@
 
    A line: ONE(name, type, count, when, what), or MANY(name, type, components, count, when, what) for that many arrays;
    count and condition are of the configuration `c` and its grid `g`. A module that the scene did not choose has no
-   array. Arrays of sph_real and double are scratch of a stage: nothing in them is read before it was written (validate.c
-   looks); what is kept for longer has another type. */
+   array. Arrays of sph_real and double are scratch of a stage: nothing in them is read before it was written
+   (validate.c looks); what is kept for longer has another type. */
 #ifndef SPH_ARRAYS_H
 #define SPH_ARRAYS_H
 

@@ -2,6 +2,9 @@
 /* bodies.c: sets of what moves by forces: fluids and solids, with their materials. Runs between steps only. */
 #include "dmath.h"
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(bodies)
 
 /* 0, which asks for a default, or between 1/most and most, whose squares and quotients stay in a double's range */
 static __attribute__((noinline)) sph_status check_positive(sph_sim *sim, const char *what, double v, float most)

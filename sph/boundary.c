@@ -6,6 +6,9 @@
      Monaghan-Kos    a = (A/sqrt q)(1 - q) P(r_par) n, q = r_perp/(2 dx)      (Wickramarachchi 2009 eqs 6.10-6.12) */
 #include "boundary.h"
 #include "dmath.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(boundary)
 
 #define SPH_PI 3.14159265358979323846
 

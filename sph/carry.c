@@ -5,6 +5,9 @@
 
    Cost: for each component a loop that gathers from buffer src, and one or two that add the rate. */
 #include "motion.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(carry)
 
 /* elements of any kind from where their particles were */
 static void take(void *to, const void *from, const uint32_t *at, size_t bytes, sph_span s)

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* columns.c: the table of column sets (columns.h), through which the sweep reaches their loaders. */
 #include "sweep.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(columns)
 
 #define SPH_COLUMN_LOADER(name, ghosts, rows, knob, when)                                                          \
     void SPH_NAME(load_##name##_)(const sph_candidates *r, sph_real *to, uint32_t row);

@@ -2,6 +2,9 @@
 /* config.c: whole configurations: defaults, what options ask of each other, what may change between steps. What each
    may be alone is in the list of options (options.h). */
 #include "config.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(config)
 
 sph_config sph_config_default(void) { return sph_options_start; }
 

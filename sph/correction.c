@@ -7,6 +7,9 @@
 
    Array: M^-1 (DIM^2 reals, once). Cost: a sweep before the forces. */
 #include "reference.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(correction)
 
 #if SPH_HAS_CORRECTION
 enum { SUM_M, SUM_FAR = SPH_NL };

@@ -4,6 +4,9 @@
    comparison of integers a particle. */
 #include "locals.h"
 #include "motion.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(crossing)
 
 #if SPH_HAS_WALLS
 

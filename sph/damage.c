@@ -9,6 +9,9 @@
    particle id, rising thresholds). Cost: a local pass; no sweep. */
 #include "locals.h"
 #include "tensor.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(damage)
 
 #if SPH_HAS_DAMAGE
 #include "dmath.h"

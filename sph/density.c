@@ -5,6 +5,9 @@
    Cost: a sweep and a local pass. */
 #include "locals.h"
 #include "pair.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(density)
 
 #if SPH_HAS_FILTERS
 enum { SUM_MW, SUM_VW };

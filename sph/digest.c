@@ -4,6 +4,9 @@
 #include "digest.h"
 
 #include <string.h>
+#include "arithmetic.h"
+
+SPH_OBJECT(digest)
 
 static inline uint64_t mix(uint64_t h, uint64_t v)
 {

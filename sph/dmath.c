@@ -13,6 +13,9 @@
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
+#include "arithmetic.h"
+
+SPH_OBJECT(dmath)
 
 #if defined(__FAST_MATH__)
 #error "sph needs strict floating point: build without -ffast-math"

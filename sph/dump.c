@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* dump.c: sph_dump, which writes the state as a stream of bytes (dump.h). */
 #include "dump.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(dump)
 
 #if SPH_WITH_DUMP
 static bool write_all(sph_stream *s, const sph_sim *sim, uint32_t fields, uint64_t bytes, uint32_t sections)

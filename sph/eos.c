@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* eos.c: the equations of state in double (Gray 2001 eq 2.25): pressure, the density at a pressure, energy. */
 #include "eos.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(eos)
 
 #include "dmath.h"
 

@@ -2,6 +2,9 @@
 /* faces.c: the rules of the domain's faces for one particle. Periodic: it comes in on the other side; mirrors: it is
    reflected, and its velocity turns; open: it has left. */
 #include "motion.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(faces)
 
 /* puts a coordinate that left the domain back by the face's rule: 0 fine, 1 reflected, 2 left */
 static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)

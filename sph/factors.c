@@ -3,6 +3,9 @@
    that the integrator stands. */
 #include "factors.h"
 #include "kernels.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(factors)
 
 /* The predictor-corrector evaluates forces once a step, at the predicted state, and keeps them. In fluids it foresees
    the rise of the rate of density (kick.h), and stands an oscillation up to w dt = 0.75, where kick-drift-kick stands

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* fields.c: the list of state fields (fields.h) as a table. */
 #include "fields.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(fields)
 
 #define SPH_FIELD_ROW(name, type, comps, unit, when, way)                                                    \
     {"state: " #name, SPH_FIELD_AT(name), comps, sizeof(type), (type)0.5 > 0, (way) & SPH_WAYS,                   \

@@ -4,6 +4,9 @@
    damage.c. */
 #include "dmath.h"
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(flaws)
 
 #if SPH_HAS_DAMAGE
 /* splitmix64 (Steele, Lea & Flood 2014) */

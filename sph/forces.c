@@ -23,6 +23,9 @@
 #include "stress.h"
 #include "viscosity.h"
 #include "xsph.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(forces)
 
 /* ---- the loop ---- */
 

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* format.c: what is in a dump: the members of its records, and its arrays (dump.h). */
 #include "dump.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(format)
 
 #if SPH_WITH_DUMP || SPH_WITH_RESTORE
 

@@ -5,6 +5,9 @@
    Array: N (Bonet & Lok) or B (renormalised), symmetric, SPH_DIM (SPH_DIM + 1)/2 reals. Cost: a sweep before the
    forces. Where the neighbours do not span space (sph_invert_sum, of E = M/rho) the plain gradient is taken. */
 #include "gradient.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(gradient)
 
 #if SPH_HAS_FLUID_GRADIENT
 void sph_load_gradient(const sph_candidates *r, sph_real *to, uint32_t row)

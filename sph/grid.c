@@ -3,6 +3,9 @@
 #include "internal.h"
 #include "kernels.h"
 #include "report.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(grid)
 
 /* the power of two of which the longest axis has 2^(SPH_POS_BITS - 1) or more, but less than twice as many */
 static double choose_quantum(double longest)

@@ -6,6 +6,9 @@
    of that before to half of it after: so a velocity that jumps (a table's does, at its rows) gives the same impulse
    however a step is cut, and a smooth one the same force, to second order in that time. */
 #include "locals.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(groups)
 
 #if SPH_HAS_GROUPS
 

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* hash.c: the digest of everything that the next step reads: the current state buffer, scalars, groups, books. */
 #include "internal.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(hash)
 
 static uint64_t mix_books(uint64_t h, const sph_config *c, const sph_scalars *s)
 {

@@ -5,6 +5,8 @@
 #include "factors.h"
 #include "sweep.h"
 
+SPH_OBJECT(init)
+
 size_t sph_arena_bytes(const sph_config *cfg)
 {
     sph_grid grid;
@@ -15,9 +17,9 @@ size_t sph_arena_bytes(const sph_config *cfg)
 /* what is wrong with an arena that must have `need` bytes, or with the machine */
 static sph_status check_arena(const void *arena, size_t bytes, size_t need, sph_report *r)
 {
-    const char *broken = sph_broken_arithmetic();
+    const char *allowed, *broken = sph_broken_arithmetic(&allowed);
     if (broken)
-        return sph_tell(r, broken, "IEEE 754 as written", 0, SPH_ARITHMETIC);
+        return sph_tell(r, broken, allowed, 0, SPH_ARITHMETIC);
     if (!arena || bytes < need)
         return sph_tell(r, "arena", "at least so many bytes as the value says", (double)need, SPH_ARENA_TOO_SMALL);
     if ((uintptr_t)arena % SPH_ALIGN)

@@ -2,6 +2,9 @@
 /* initial.c: initial fields: velocity and density by a function of position, density by hydrostatic pressure. Runs
    between steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be right. */
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(initial)
 
 #if SPH_WITH_FIELDS
 /* velocity of a particle now: leap-frog's are half a step ahead, and forces made anew begin where they are not */

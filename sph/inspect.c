@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* inspect.c: what looks wrong in a filled simulation, though nothing forbids it. No array: while it looks for neighbours
-   the spare state buffer holds the particles' indices in order of cells. Cost: about that of a sort and a sweep. */
+/* inspect.c: what looks wrong in a filled simulation, though nothing forbids it. No array: while it looks for
+   neighbours the spare state buffer holds the particles' indices in order of cells. Cost: about that of a sort and a
+   sweep. */
 #include "locals.h"
 #include "reading.h"
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(inspect)
 
 #if SPH_WITH_INSPECT
 static const char *const texts[SPH_FINDINGS] = {
@@ -135,20 +139,17 @@ static sph_finding find_in_walls(const sph_sim *sim)
 {
     const sph_buffer *b = &sim->buf[sim->cur];
     sph_finding f = nothing(SPH_FINDING_IN_WALL, 0, 0);
-#if SPH_HAS_WALLS
-    for (uint32_t i = 0; i < sim->now.count; i++) {
+    for (uint32_t i = 0; SPH_HAS_WALLS && i < sim->now.count; i++) {
         double depth = 0;
         if (!sph_body_at(sim, b, i) || sph_inside_wall(sim, b, i, &depth) == SPH_MAX_SETS)
             continue;
         add_particle(&f, b, i, SPH_NO_PARTICLE);
         f.value = depth > f.value ? depth : f.value;
     }
-#endif
-    (void)b;
     return f;
 }
 
-/* height along gravity from the lowest particle of all to the highest of a fluid, times the size of gravity (m^2/s^2) */
+/* height along gravity from the lowest particle of all to the highest of a fluid, times gravity (m^2/s^2) */
 static double fall(const sph_sim *sim)
 {
     const sph_buffer *b = &sim->buf[sim->cur];

@@ -11,6 +11,9 @@
 #include "motion.h"
 #include "passes.h"
 #include "runge_kutta.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(integrators)
 
 /* ---- what stages do at their sorts ---- */
 

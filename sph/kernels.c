@@ -6,6 +6,9 @@
    the error function of 3, so that all seven integrate to 1 (tests/test_kernels.c checks by quadrature). */
 #include "internal.h"
 #include "kernels.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(kernels)
 
 #define SPH_PI 3.14159265358979323846
 #define SPH_ERF3 0.99997790950300141456  /* erf(3) */

@@ -7,6 +7,9 @@
    meet, the particles behind both get the diagonal normal (his figure 2.4). Boundary-force particles stand on the
    wall itself. */
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(layers)
 
 #if SPH_HAS_WALLS
 sph_wall sph_wall_default(void)

@@ -5,6 +5,9 @@
      | sim header | arrays of the scene | state buffers (2, or 3 for Runge-Kutta) |
 */
 #include "scratch.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(layout)
 
 typedef struct layout {
     unsigned char *base; /* null: measure only */

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* mirror.c: the columns of ghosts (mirror.h): normals, velocities for the viscosity, depths. No array. */
 #include "mirror.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(mirror)
 
 #if SPH_HAS_LAYERED_WALLS
 /* normal . (wall face - home cell), with the wall where it is now, and its image (m) */

@@ -2,6 +2,9 @@
 /* move.c: where the sort takes the particles of a block, and the kick that a stage gives before the sums: bodies by
    their velocity and acceleration, walls and held sets as their group is told; then the faces of the domain. */
 #include "motion.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(move)
 
 /* What the predicted density takes of `rise`: dt (dt/last dt). Two dt at most: where a very short step comes before a
    long one, its rise is noise. */

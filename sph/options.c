@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* options.c: what follows from the list of options (options.h): defaults, the check of each alone, the digest. */
 #include "internal.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(options)
 
 /* what the checks and the digest ask of an option. A table of places, not of values: it stays in read-only memory.
    Bounds are floats, which hold all of them. */

@@ -6,6 +6,9 @@
    Arrays: power (7 reals a particle), partial (12 doubles a chunk). Cost: a loop over particles in double at a step's
    end. */
 #include "locals.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(powers)
 
 #if SPH_WITH_BOOKS
 double *sph_open_books(const sph_sim *sim, uint32_t chunk)

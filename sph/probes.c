@@ -3,6 +3,9 @@
    the faces of the domain are seen as by the sweep. Cost: a loop over all particles a point. */
 #include "kernels.h"
 #include "reading.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(probes)
 
 #if SPH_WITH_PROBES
 /* W(r) in double for one particle */
@@ -22,9 +25,9 @@ typedef struct view {
 #define VIEWS (SPH_DIM == 1 ? 3u : SPH_DIM == 2 ? 9u : 27u)
 #define NO_AXIS SPH_DIM
 
-/* View number n: along axis k the particles themselves, or their images behind the low or the high face, as digit k of n
-   to the base of 3 says. False where there is no face with images within a support of x. Of a column along an axis all
-   is seen anyway: it needs no images there. */
+/* View number n: along axis k the particles themselves, or their images behind the low or the high face, as digit k of
+   n to the base of 3 says. False where there is no face with images within a support of x. Of a column along an axis
+   all is seen anyway: it needs no images there. */
 static bool make_view(const sph_sim *sim, const double *x, uint32_t n, uint32_t column, view *v)
 {
     for (uint32_t k = 0; k < SPH_DIM; k++)
@@ -59,7 +62,8 @@ static double seen_at(const sph_sim *sim, const sph_buffer *b, const view *v, ui
 
 /* squared distance of a particle from x, or from the column along an axis through x; a support or more: any number that
    is as large */
-static double apart2(const sph_sim *sim, const sph_buffer *b, const view *v, uint32_t i, const double *x, uint32_t column)
+static double apart2(const sph_sim *sim, const sph_buffer *b, const view *v, uint32_t i, const double *x,
+                     uint32_t column)
 {
     const double reach2 = sim->grid.support * sim->grid.support;
     double r2 = 0;

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* reading.c: what a host reads of particles between steps. */
 #include "reading.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(reading)
 
 uint32_t sph_count(const sph_sim *sim) { return sim ? sim->now.count : 0; }
 

@@ -3,6 +3,9 @@
 #include "records.h"
 
 #include <float.h>
+#include "arithmetic.h"
+
+SPH_OBJECT(records)
 
 #if SPH_WITH_DUMP || SPH_WITH_RESTORE
 #define DUMP_FIELD 32u

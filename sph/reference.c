@@ -2,6 +2,9 @@
 /* reference.c: the columns of reference positions (reference.h). Array: shift, the displacement since the start
    (state). */
 #include "reference.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(reference)
 
 #if SPH_HAS_TOTAL
 void sph_load_reference(const sph_candidates *r, sph_real *to, uint32_t row)

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* report.c: the texts of statuses and of limits of the step, and reports outside a simulation. */
 #include "report.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(report)
 
 static const char *const status_texts[SPH_STATUS_COUNT] = {
 #define SPH_STATUS_TEXT(name, text) text,
@@ -19,7 +22,8 @@ static const char *const limit_texts[SPH_LIMITS] = {
 };
 const char *sph_limit_text(uint32_t limit) { return limit < SPH_LIMITS ? limit_texts[limit] : "unknown"; }
 
-__attribute__((noinline)) sph_status sph_tell(sph_report *report, const char *what, const char *allowed, double value, sph_status status)
+__attribute__((noinline)) sph_status sph_tell(sph_report *report, const char *what, const char *allowed, double value,
+                                              sph_status status)
 {
     if (report)
         *report = SPH_REPORT(status, what, allowed, "", value);

@@ -4,6 +4,9 @@
 #include "dump.h"
 #include "factors.h"
 #include "scratch.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(restore)
 
 #if SPH_WITH_RESTORE
 

@@ -7,6 +7,9 @@
 #include "integrators.h"
 #include "timestep.h"
 #include "sweep.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(run)
 
 /* ---- running a program ---- */
 

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* settle.c: the end of a stage: indices become ids, walls get zeros; and of a step: what must not go on is noted. */
 #include "motion.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(settle)
 
 /* components of all fields that the force sweep writes */
 enum {

@@ -2,6 +2,9 @@
 /* setup.c: what all of set-up shares: when it is allowed, sets and groups, particles, boxes of them. Runs between steps
    only. */
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(setup)
 
 sph_status sph_setup_bad(sph_sim *sim, const char *what, const char *allowed, double value)
 {

@@ -3,6 +3,9 @@
    on the face-centred ones of Gray 2001 section 5.6.5. Runs between steps only. Every point of the lattice that
    encloses a shape is looked at once: the cost is lattice points times holes, or times corners. */
 #include "setup.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(shapes)
 
 #if SPH_WITH_SHAPES
 

@@ -4,6 +4,9 @@
    at |K|. Array: xsph (state). Cost: a sweep before the forces. */
 #include "reference.h"
 #include "smoothed.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(smoothing)
 
 #if SPH_HAS_HAT
 /* where they are: in the middle of a step, where xsph still says how particles went, in acc, which is free until

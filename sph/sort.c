@@ -10,6 +10,9 @@
    cells (4 bytes each) and of slabs. */
 #include "motion.h"
 #include "passes.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(sort)
 
 /* ---- ranges ---- */
 

@@ -58,7 +58,8 @@ typedef float sph_real;
     X(BAD_STATE, "the call is not allowed at this moment (a step is under way, or nothing was added)") \
     X(ARENA_TOO_SMALL, "the arena is too small; the bytes needed are in the report")                   \
     X(ARENA_UNALIGNED, "the arena is not aligned to SPH_ALIGN bytes")                                  \
-    X(ARITHMETIC, "this build or machine does not do the IEEE 754 arithmetic the kernel relies on")    \
+    X(ARITHMETIC, "this build or machine does not do the IEEE 754 arithmetic the kernel relies on, or one of its " \
+                  "objects was built unlike the others")                                               \
     X(TOO_MANY_PARTICLES, "the particle capacity is exhausted")                                        \
     X(TOO_MANY_SETS, "the capacity for particle sets or wall groups is exhausted")                     \
     X(TOO_MANY_FLAWS, "the capacity for flaws is exhausted")                                           \
@@ -681,9 +682,9 @@ typedef struct sph_totals {
 #define sph_get_totals SPH_NAME(get_totals)
 void sph_get_totals(const sph_sim *sim, sph_totals *out);
 
-/* Values at a point x (m): Shepard-normalised sums over fluid and solid and their images behind the faces of the domain;
-   walls are not in them. `cover` = sum (m/rho) W is about 1 inside and on faces that have images, 1/2 on a surface, on a
-   wall or on an open face, and falls to 0 outside; where it is below 1e-6 the values are 0. */
+/* Values at a point x (m): Shepard-normalised sums over fluid and solid and their images behind the faces of the
+   domain; walls are not in them. `cover` = sum (m/rho) W is about 1 inside and on faces that have images, 1/2 on a
+   surface, on a wall or on an open face, and falls to 0 outside; where it is below 1e-6 the values are 0. */
 typedef struct sph_probe_value {
     double cover, rho, p, v[SPH_DIM];
 } sph_probe_value;
@@ -737,7 +738,7 @@ typedef struct sph_finding {
     const char *text;
     uint32_t count;
     double value, limit;
-    uint32_t particle, other; /* the smallest id that is concerned, and the one it coincides with; or SPH_NO_PARTICLE */
+    uint32_t particle, other; /* the smallest id at fault, the one it coincides with; SPH_NO_PARTICLE: none */
     uint32_t set;             /* its set; of sets the first; or SPH_MAX_SETS */
 } sph_finding;
 /* Calls fn once for each kind that there is, in the order of the list; to be called when all was added, or between any

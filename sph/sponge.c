@@ -15,6 +15,9 @@
    Array: sponge (a double for each chunk of a local pass). Cost: a local pass; exp of particles in a layer. */
 #include "dmath.h"
 #include "sweep.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(sponge)
 
 #if SPH_WITH_SPONGE
 /* ---- the configuration ---- */

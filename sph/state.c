@@ -2,6 +2,9 @@
 /* state.c: what every file above may ask of a simulation: a failure reported with the pass it happened in, the stress
    of a particle, and the digest of a state buffer. */
 #include "internal.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(state)
 
 /* each knob is 0 or 1, and what the preprocessor takes a module for agrees with what the list of knobs says it needs */
 #define KNOB(name, needs) _Static_assert(SPH_WITH_##name == 0 || SPH_WITH_##name == 1, "a knob is 0 or 1: " #name);

@@ -2,6 +2,9 @@
 /* stream.c: the bytes of a dump, in either direction (stream.h). CRC-32 is that of IEEE 802.3 (zlib). */
 #include "fields.h"
 #include "stream.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(stream)
 
 #if SPH_WITH_DUMP || SPH_WITH_RESTORE
 static const unsigned char magic[8] = {0x89, 'S', 'P', 'H', 0x0d, 0x0a, 0x1a, 0x0a};

@@ -6,6 +6,9 @@
 
    Arrays: stress and dstress (1, 3 or 5 reals each, in every state buffer). Cost: the sums of the force sweep. */
 #include "stress.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(stress)
 
 #if SPH_WITH_SOLID
 #include "eos_lanes.h"

@@ -5,6 +5,9 @@
    end, then the cells themselves from low to high, then an image at the high end, inside a cell by id. The particles
    of up to three neighbouring cells of a row are contiguous in memory, so a row is one copy. */
 #include "sweep.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(sweep)
 
 typedef struct filling {
     sph_sim *sim;

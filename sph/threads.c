@@ -2,6 +2,9 @@
 /* threads.c: what the threads of a pass see: failures, peaks, work, counts. None of it depends on how many threads
    there are. */
 #include "sweep.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(threads)
 
 void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value)
 {

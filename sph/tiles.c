@@ -5,6 +5,9 @@
    one. */
 #include "eos_lanes.h"
 #include "sweep.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(tiles)
 
 /* particles that are copied without asking how many there are: a row of cells has about SPH_STRIDE, and a loop of fixed
    length saves a branch that would be mispredicted; where a register holds one real, copying too many costs more */

@@ -2,6 +2,9 @@
 /* timestep.c: the time step: the smallest of what sound, viscosity, density diffusion, forces and gravity allow after
    the latest force sweep (Gray 2001 eq 2.30, Wickramarachchi 2009 eqs 3.88-3.90), unless it is fixed. */
 #include "timestep.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(timestep)
 
 /* sound of a set at rest (m/s) */
 static double sound_of(const sph_sim *sim, const sph_set *set)

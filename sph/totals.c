@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* totals.c: mass, momentum and energies of fluid and solid, and the books that the steps keep. */
 #include "reading.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(totals)
 
 #if SPH_WITH_TOTALS
 static void add_particle_totals(const sph_sim *sim, const sph_buffer *b, uint32_t i, sph_totals *o)

@@ -3,6 +3,9 @@
    memory that nobody may read before it was written. No array: ids are marked in the scratch of thread 0, as many at a
    time as it has bits. */
 #include "sweep.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(validate)
 
 /* every index of the source buffer stands at most once in buffer dst */
 static bool each_once(const sph_sim *sim)

@@ -5,6 +5,9 @@
 
    Array: plastic (one real in every state buffer). Cost: a loop over solids after every advance; no sweep. */
 #include "locals.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(yield)
 
 #if SPH_HAS_YIELD
 

@@ -8,6 +8,7 @@
   lines     no line over 120 columns in C, headers, shell and python
   functions in sph/: none over 60 lines, the median at most 8, 90 % at most 30; no `#if` inside one
   words     files marked `nameless` in tests/floors.txt hold no word of a module
+  objects   every file of sph/ says SPH_OBJECT(its name) and stands in SPH_OBJECTS (sph/arithmetic.h)
   ground    no heap, no stdio, no libm but sqrt in sph/
 
 usage: house.py [--build build] [--nm nm] [--floors tests/floors.txt]    writes BUILD/house.csv, prints what is wrong
@@ -29,7 +30,8 @@ MODULE_WORDS = ["stress", "damage", "adami", "shepard", "xsph", "viscos", "morri
                 "strain", "lennard", "solid", "elastic", "plastic", "brittle", "artificial", "tait", "eos", "wendland",
                 "quintic", "gauge", "summation", "leap", "runge", "predictor", "continuity", "dissipat"]
 NAMES = re.compile(r"(?<![a-z])(?:" + "|".join(MODULE_WORDS) + r")[a-z]*")
-LINKED = {"memcpy", "memset", "memmove", "sqrt", "sqrtf"}
+LINKED = {"memcpy", "memset", "memmove", "sqrt", "sqrtf",
+          "_GLOBAL_OFFSET_TABLE_"}  # the linker's own: of objects that need not be there (sph/arithmetic.h)
 HEADERS = {"float.h", "stdbool.h", "stddef.h", "stdint.h", "string.h"}
 CALLS = r"\b(malloc|calloc|realloc|free|aligned_alloc|alloca|f?printf|sn?printf|puts|putchar|fopen|fwrite|fread|" \
         r"exit|abort|powf?|expf?|logf?|sinf?|cosf?|tanf?|cbrtf?|floorf?|ceilf?|fabsf?|fmaf?|hypotf?)\s*\("
@@ -229,6 +231,18 @@ def check_ground(files, foreign):
     row("heap_stdio_libm", bad, "places", 0)
 
 
+def check_objects(files):
+    """Every file of sph/ leaves its record of arithmetic and knobs, and is asked for it."""
+    listed = set(re.findall(r"X\((\w+)\)", read("sph/arithmetic.h").split("#define SPH_OBJECTS(X)")[1].split("*/")[0]))
+    names = {os.path.basename(f)[:-2] for f in files if f.endswith(".c")}
+    said = {n for n in names if f"\nSPH_OBJECT({n})\n" in read(f"sph/{n}.c")}
+    for n in sorted(names - said):
+        wrong(f"sph/{n}.c: does not say SPH_OBJECT({n})")
+    for n in sorted(names ^ listed):
+        wrong(f"sph/{n}.c: SPH_OBJECTS in sph/arithmetic.h has it {'only' if n in listed else 'not'}")
+    row("objects_without_probe", len(names - said) + len(names ^ listed), "files", 0)
+
+
 def main():
     p = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     p.add_argument("--build", default="build", help="where house.csv goes and the objects are, in obj/2f/sph")
@@ -246,6 +260,7 @@ def main():
         wrong(f"{args.floors} marks no file of sph/ as nameless, so there is none to look for words in")
     check_words(nameless)
     check_ground(kernel, foreign)
+    check_objects(kernel)
     with open(os.path.join(args.build, "house.csv"), "w", encoding="utf-8") as f:
         f.write("name,value,unit,target,ok\n" + "\n".join(ROWS) + "\n")
     for text in WRONG:

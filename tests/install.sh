@@ -13,7 +13,10 @@ export PKG_CONFIG_PATH="$usr/lib/pkgconfig"
 mkdir -p "$tree" && cp -R Makefile LICENSE sph port examples tools tests "$tree" && cd "$tree" || exit 1
 
 wrong() { echo "install: $*" >&2; bad=$((bad + 1)); }
-fine() { ran=$((ran + 1)); "$@" >"$tmp/log" 2>&1 || { wrong "$*"; sed 's/^/  /' "$tmp/log" | head -20 >&2; return 1; }; }
+fine() {
+    ran=$((ran + 1))
+    "$@" >"$tmp/log" 2>&1 || { wrong "$*"; sed 's/^/  /' "$tmp/log" | head -20 >&2; return 1; }
+}
 here() { command -v "$1" >/dev/null 2>&1 || { echo "install: no $1: left out"; bad=$((bad + STRICT)); return 1; }; }
 # flags of a build: by pkg-config, or read from its file
 flags() {
@@ -25,7 +28,8 @@ flags() {
     fi
 }
 
-fine $MAKE -s -j2 install PREFIX="$usr" BUILD="$tmp/build" INSTALL_BUILDS="2f 3d" INSTALL_TOOL= OPT=-O0 CC="$CC" || exit 1
+fine $MAKE -s -j2 install PREFIX="$usr" BUILD="$tmp/build" INSTALL_BUILDS="2f 3d" INSTALL_TOOL= OPT=-O0 CC="$CC" ||
+    exit 1
 cp examples/cpp/tank.cpp "$tmp/tank.cpp"
 cd "$tmp" || exit 1
 rm -rf "$tmp/build"
@@ -43,12 +47,13 @@ use() { # label, command of the compiler
 here g++ && use g++ "g++ -std=c++17"
 here clang++ && use clang++ "clang++ -std=c++17"
 for b in 2f 3d; do
-    [ "$(cat "$tmp"/said.$b.* 2>/dev/null | sort -u | wc -l)" -le 1 ] || wrong "hashes of $b differ: $(cat "$tmp"/said.$b.*)"
+    [ "$(cat "$tmp"/said.$b.* 2>/dev/null | sort -u | wc -l)" -le 1 ] ||
+        wrong "hashes of $b differ: $(cat "$tmp"/said.$b.*)"
 done
 
 # a C program without -fno-math-errno: the library of the .pc is enough
-printf '%s\n' '#include <sph/sph.h>' 'int main(void) { sph_config c = sph_config_default(); return sph_arena_bytes(&c) != 0; }' \
-    >"$tmp/small.c"
+printf '%s\n' '#include <sph/sph.h>' 'int main(void)' \
+    '{ sph_config c = sph_config_default(); return sph_arena_bytes(&c) != 0; }' >"$tmp/small.c"
 # shellcheck disable=SC2046
 fine $CC -std=c11 $(flags 2f cflags Cflags) "$tmp/small.c" $(flags 2f libs Libs) -o "$tmp/small" && fine "$tmp/small"
 

@@ -128,7 +128,7 @@ static void make_bed(const fault_case *f, const sph_port *port)
     for (int k = 0; k < SPH_DIM; k++)
         hi[k] = N * DX;
     w.kind = f->wall;
-    w.compressible = true;
+    w.compressible = c.density == SPH_CONTINUITY;
     w.strength = f->wall == SPH_WALL_LENNARD_JONES ? 0.02 : 0;
     w.motion = motion;
     if (f->solid)

@@ -48,12 +48,13 @@ static void no_cell_is_narrower_than_a_support(void **state)
             const uint32_t n = sim.grid.ncell[k];
             assert_true(sph_cell_axis(&sim, k, sim.grid.extent[k] - 1) == n - 1 && sph_cell_axis(&sim, k, 0) == 0);
             for (uint32_t look = 0; n > 1 && look < 24; look++) {
-                const uint32_t cell = look < 8 && look < n ? n - 1 - look : look < 12 && look - 8 < n ? look - 8 : draw(n);
+                const bool last = look < 8 && look < n, first = look >= 8 && look < 12 && look - 8 < n;
+                const uint32_t cell = last ? n - 1 - look : first ? look - 8 : draw(n);
                 const sph_pos start = cell_start(&sim, k, cell);
                 const sph_pos end = cell + 1 < n ? cell_start(&sim, k, cell + 1) : sim.grid.extent[k];
                 if (!((double)(end - start) + 1 > support))
-                    fail_msg("axis %u of %.17g m, cell %u of %u: %.0f quanta, support %.3f", k, sim.grid.length[k], cell, n,
-                             (double)(end - start), support);
+                    fail_msg("axis %u of %.17g m, cell %u of %u: %.0f quanta, support %.3f", k, sim.grid.length[k],
+                             cell, n, (double)(end - start), support);
             }
         }
     }
