@@ -11,7 +11,8 @@
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
    where its motion says at each of these times. At the end of a step damage grows, then sponges take. Faces: periodic
-   ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated by. */
+   ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated
+   by. */
 #include <stdlib.h>
 #include <string.h>
 
