@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* smoothing.c: smoothed velocities for the strain rates of solids, u_i = xsph sum (m_j/rho_mean) (v_j - v_i) W (Gray
-   2001 eqs 2.22, 5.10); W as the kernel sees the pair, as in xsph.h: of one body's bonds
-   at |K|. Array: xsph (state). Cost: a sweep before the forces. */
+   2001 eqs 2.22, 5.10); W as the kernel sees the pair, as in xsph.h: of one body's bonds at |K|. Array: xsph (state).
+   Cost: a sweep before the forces. */
 #include "reference.h"
 #include "smoothed.h"
 #include "arithmetic.h"

@@ -185,7 +185,10 @@ static void compare_totals(const sph_sim *sim, const o_scene *s)
             check("angular momentum", SPH_NO_PARTICLE, k, t.angular[k], o.angular[k], 0);
     for (uint32_t k = 0; s->cfg.books && k < 4; k++)
         check(power[k], SPH_NO_PARTICLE, k, look_power(sim, k), book[k], 0);
-    if (s->cfg.books) { /* the instant balance: energies rise by what is given less what is taken */
+    /* The instant balance: energies rise by what is given less what is taken. Not with summed density where places move
+       otherwise than velocities say (XSPH; walls in a no-slip mirror): that compression is in no book. */
+    const bool summed = s->cfg.density == SPH_SUMMATION && (s->cfg.xsph > 0 || o_loses(s));
+    if (s->cfg.books && !summed) {
         static const int sign[] = {-1, 1, -1, 1, -1, -1, -1};
         double sum = 0, size = 0;
         for (uint32_t k = 0; k < 7; k++) {
@@ -296,7 +299,7 @@ static void compare_still(const sph_sim *sim, o_scene *s, double dt)
             continue;
         if (s->cfg.shepard_every)
             check("filtered density", p->id, 0, k->d, p->density,
-                  10 * dt * (fabs(k->rate) + fabs(before[p->id].rate)) / TOLERANCE);
+                  100 * dt * (fabs(k->rate) + fabs(before[p->id].rate)) / TOLERANCE);
         for (uint32_t c = 0; c < SPH_DIM; c++) {
             const bool held = set->held >> c & 1;
             const double ref = s->cfg.sponge_velocity[c], f = held ? 1 : exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);

@@ -272,6 +272,14 @@ static void draw_state(plan *p, plan_point *q, double v, double d)
         q->moved[k] = range(-0.2, 0.2) * c->spacing;
 }
 
+/* how far particles that will move stay off a face that they must not go through: open ones, and of solids mirrors */
+static double shy_of(const plan *p, int k, int side)
+{
+    const uint32_t face = p->cfg.face[k][side];
+    const bool moves = p->still_step || p->steps > 0;
+    return moves && (face == SPH_OPEN || (face != SPH_PERIODIC && p->solids)) ? 0.1 * p->cfg.spacing : 0;
+}
+
 static void draw_points(plan *p)
 {
     const sph_config *c = &p->cfg;
@@ -298,7 +306,8 @@ static void draw_points(plan *p)
                 x = p->point[same].x[k] - c->lo[k] + near * range(-1, 1);
             if (chance(0.03))
                 x = chance(0.5) ? 0 : length * (1 - 1e-15);
-            q->x[k] = c->lo[k] + o_min(o_max(x, 0), length * (1 - 1e-15));
+            const double low = shy_of(p, k, 0), high = o_min(length * (1 - 1e-15), length - shy_of(p, k, 1));
+            q->x[k] = c->lo[k] + o_max(o_min(x, high), o_min(low, high));
         }
     }
     p->probes = PLAN_PROBES;

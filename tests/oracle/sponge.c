@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* sponge.c: S of the sponge layers, dv/dt = -rate S (v - v_ref): the sum over faces of s^2, s = (width - distance to
-   the face)/width within a layer (Powell 2012 section 2.1; sph.h). Over a step v' = v_ref + (v - v_ref) exp(-rate S dt). */
+   the face)/width in a layer (Powell 2012 section 2.1; sph.h). Over a step v' = v_ref + (v - v_ref) exp(-rate S dt).
+   */
 #include "oracle.h"
 
 double o_sponge(const o_scene *s, const o_particle *i)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* steps.c: whole steps dt from t, u: XSPH's velocity, index h: the middle of the step.
+/* steps.c: whole steps dt from t, u: XSPH's velocity, index h: the middle of the step. Places that went with u of the
+   beginning go dt/2 (u' - u) more at the end.
      predictor-corrector  x' = x + dt (v + u) + dt^2/2 a, v_p = v + dt a, rho_p = rho + dt r, forces there,
                           v' = v_p + dt/2 (a' - a), rho' = rho + dt/2 (r + r')                    (Gray 2001 2.26-2.28)
                           in fluids rho_p also has dt (dt/dt_o) e, e = half of what r rose by in the step before
@@ -11,7 +12,8 @@
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
    where its motion says at each of these times. At the end of a step damage grows, then sponges take. Faces: periodic
-   ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated by. */
+   ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated
+   by. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -196,6 +198,16 @@ static void go_whole(o_scene *s, double dt)
     restrain(s);
 }
 
+/* places went with u of the beginning: dt/2 (u' - u) more */
+static void mend_drift(o_scene *s, double dt)
+{
+    for (uint32_t i = 0; i < s->n && s->cfg.xsph > 0; i++)
+        for (int k = 0; k < SPH_DIM && o_is_body(s, &s->own[i]); k++)
+            if (!is_held(s, &s->own[i], k))
+                s->own[i].x[k] += half(dt) * (s->own[i].drift[k].v - turned(&was[i], k, was[i].u[k]));
+    pass_faces(s);
+}
+
 /* ---- the integrators ---- */
 
 static void predict_correct(o_scene *s, uint32_t number, double dt)
@@ -226,6 +238,7 @@ static void predict_correct(o_scene *s, uint32_t number, double dt)
                 p->dev[k][l] += half(dt) * (p->stress_rate[k][l].v - b->dev_rate[k][l]);
     }
     o_yield(s);
+    mend_drift(s, dt);
 }
 
 /* kick-drift-kick; and leap-frog, whose velocity is ahead */
@@ -237,11 +250,11 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
     go(s, dt, dt * kick, kick, half(dt));
     for (uint32_t i = 0; i < s->n; i++) /* rates: places of the middle */
         for (int k = 0; k < SPH_DIM; k++)
-            s->own[i].x[k] -= half(dt) * s->own[i].v[k];
+            s->own[i].x[k] -= half(dt) * (s->own[i].v[k] + turned(&was[i], k, was[i].u[k]));
     o_forces(s);
     for (uint32_t i = 0; i < s->n; i++)
         for (int k = 0; k < SPH_DIM; k++)
-            s->own[i].x[k] += half(dt) * s->own[i].v[k];
+            s->own[i].x[k] += half(dt) * (s->own[i].v[k] + turned(&was[i], k, was[i].u[k]));
     go_whole(s, dt);
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
@@ -266,6 +279,7 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
                 p->v[k] = s->cfg.damping *
                           (p->v[k] + half(dt) * ((leaps ? 2 : 1) * p->a[k].v - turned(b, k, b->a[k])));
     }
+    mend_drift(s, dt);
 }
 
 static void runge_kutta(o_scene *s, uint32_t number, double dt)
