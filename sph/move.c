@@ -119,6 +119,8 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
         if (own && (sim->cfg.on_leave == SPH_FAIL || !body))
             sph_fail_note(t, SPH_OUT_OF_DOMAIN, b->id[0][i], (double)q[0] * sim->grid.quantum);
         t->left += own && !all;
+        if (SPH_WITH_BOOKS && own && !all)
+            sph_carry_off(sim, b, i, t);
         return;
     }
     t->reflected += own && !all && r == 1 && sim->stage->reflects;

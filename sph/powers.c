@@ -3,7 +3,7 @@
    summed and integrated over time by the trapezoidal rule. What happens at once (JUMP_..., J) is added as it happens:
    velocities of held sets that leap, particles put back or removed, damage, damping, the Shepard filter.
 
-   Arrays: power (7 reals a particle), partial (12 doubles a chunk). Cost: a loop over particles in double at a step's
+   Arrays: power (7 reals a particle), partial (13 doubles a chunk). Cost: a loop over particles in double at a step's
    end. */
 #include "locals.h"
 

@@ -27,8 +27,11 @@ SPH_INLINE void sph_place(const sph_sim *sim, uint32_t i, const double *d, const
         t->left++;
         if (sim->cfg.on_leave == SPH_FAIL)
             sph_fail_note(t, SPH_OUT_OF_DOMAIN, sph_source_id(sim, i), (double)q[0] * sim->grid.quantum);
-        else
+        else {
+            if (SPH_WITH_BOOKS)
+                sph_carry_off(sim, b, i, t);
             b->set[0][i] = SPH_DEAD;
+        }
         return;
     }
     t->reflected += r == 1;

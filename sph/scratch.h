@@ -75,6 +75,8 @@ typedef struct sph_thread {
     sph_peaks peaks;
     sph_fail fail;
     uint32_t crossed, put_back, reflected, left, removed, widest;
+    uint64_t carried_off; /* books: energy of those that left, in small steps (threads.c): whole, so that order does not
+                             matter; modulo 2^64 */
 } sph_thread;
 
 /* the particles of a chunk of a local pass */
