@@ -4,8 +4,8 @@
      d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes
 
    to rounding, in every form: schemes, viscosities, diffusion, gradients, walls, faces, solids, contact, artificial
-   stress, damage, held sets. The left side is made here of velocities, accelerations and rates, and of the energies that
-   are the kernel's definition (sph_totals); nothing depends on the integrator. */
+   stress, damage, held sets. The left side is made here of velocities, accelerations and rates, and of the energies
+   that are the kernel's definition (sph_totals); nothing depends on the integrator. Then what happens at once. */
 #include "bodies.h"
 
 #define N (SPH_DIM == 1 ? 30u : SPH_DIM == 2 ? 10u : 5u)
@@ -145,8 +145,8 @@ static sph_sim *make(const scene *s, double moved)
             x[k] = (at % N + 0.5 + 0.2 * (2 * sph_rng_uniform(&rng) - 1)) * DX + moved * v[k];
         }
         /* bodies meet in the middle of the first axis */
-        must(sim, sph_add_particle(sim, set[x[0] > 0.5 * EDGE], x, v, 1000 * (1 + 0.05 * (2 * sph_rng_uniform(&rng) - 1)),
-                                   NULL));
+        const double rho = 1000 * (1 + 0.05 * (2 * sph_rng_uniform(&rng) - 1));
+        must(sim, sph_add_particle(sim, set[x[0] > 0.5 * EDGE], x, v, rho, NULL));
     }
     if (s->wall)
         add_wall(sim, s);
@@ -162,7 +162,8 @@ static double rate_of(const sph_sim *sim, uint32_t i, double *size)
     const sph_buffer *b = &sim->buf[sim->cur];
     const sph_set *s = &sim->set[b->set[0][i]];
     const double rho = s->rho0 * (1 + (double)b->rho[0][i]), p = sph_pressure(sim, s, (double)b->rho[0][i]);
-    const double root = b->damage[0] ? (double)b->damage[0][i] : 0, whole = 1 - (SPH_DIM == 3 ? root * root : root) * root;
+    const double root = b->damage[0] ? (double)b->damage[0][i] : 0;
+    const double whole = 1 - (SPH_DIM == 3 ? root * root : root) * root;
     double sum = (p < 0 ? whole : 1) * p / (rho * rho) * s->rho0 * (double)b->drho[0][i];
     double big = s->c0 * s->c0 * 0.05 * fabs((double)b->drho[0][i]);
     for (int k = 0; k < SPH_DIM; k++) {
@@ -453,8 +454,8 @@ static void what_filter_and_damping_take_is_on_the_books(void **state)
             c.damping = damps ? 0.99 : 1;
             sph_sim *sim = thrown(&c, damps ? 3 : 0, damps ? 0 : 0.05);
             const double drift = drift_of(sim, 30, &t), taken = damps ? t.damped : t.filtered;
-            print_message("integrator %u: %s %.4g J, unexplained %.2g\n", integrator, damps ? "damped" : "filtered", taken,
-                          drift);
+            print_message("integrator %u: %s %.4g J, unexplained %.2g\n", integrator, damps ? "damped" : "filtered",
+                          taken, drift);
             assert_true(taken > 0.02 * (t.kinetic + t.internal));
             close_to(drift, 0, 0.01 * taken);
             assert_int_equal(free_sims(NULL), 0);
