@@ -50,7 +50,8 @@ static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint3
         (st = check_positive(sim, solid ? "solid.rho0" : "fluid.rho0", f->rho0, 1e30f)) != SPH_OK ||
         (st = check_positive(sim, solid ? "solid.sound_speed" : "fluid.sound_speed", f->sound_speed, 1e15f)) != SPH_OK)
         return st;
-    if (!SPH_WITH_SEVERAL_FLUIDS && (!is_usual(f->rho0, sim->cfg.rho0) || !is_usual(f->sound_speed, sim->cfg.sound_speed)))
+    if (!SPH_WITH_SEVERAL_FLUIDS &&
+        (!is_usual(f->rho0, sim->cfg.rho0) || !is_usual(f->sound_speed, sim->cfg.sound_speed)))
         return sph_setup_bad(sim, "rho0, sound_speed", "those of the configuration, as compiled (modules.h)", f->rho0);
     if (f->own_eos && (!SPH_WITH_SOLID || !sph_in(SPH_EOSES_IN, f->eos)))
         return sph_setup_bad(sim, "eos", "one of SPH_TAIT .. SPH_ISOTHERMAL, compiled in (modules.h)", f->eos);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* density.c: density by summation, rho_i = sum m_j W (Gray 2001 eq 2.19), and the Shepard filter, rho_i = sum m_j
    W/sum (m_j/rho_j) W (Wickramarachchi 2009 eq 6.3), over what is of the same material, as
-   rho_i - rho0 = sum (m_j/rho_j) W (rho_j - rho0)/sum (m_j/rho_j) W, so that rounding is of the difference. Array: tmp, the new density until all have read the old one.
-   Cost: a sweep and a local pass. */
+   rho_i - rho0 = sum (m_j/rho_j) W (rho_j - rho0)/sum (m_j/rho_j) W, so that rounding is of the difference.
+   Array: tmp, the new density until all have read the old one. Cost: a sweep and a local pass. */
 #include "locals.h"
 #include "pair.h"
 #include "arithmetic.h"

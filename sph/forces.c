@@ -417,10 +417,10 @@ static uint8_t kept_apart(const sph_sim *sim)
     return apart;
 }
 
-/* The constants of the pair formulas between a home and a tile of one kind: viscosity with the mean of both sound speeds
-   (walls: the home's), diffusion with that of the one material that it acts in. Where an image shows what stands in
-   truth at S - x' (home cell's coordinates), the difference that gravity makes is of x_i - (S - x') = -(x_i - x') +
-   2 x_i - S. */
+/* The constants of the pair formulas between a home and a tile of one kind: viscosity with the mean of both sound
+   speeds (walls: the home's), diffusion with that of the one material that it acts in. Where an image shows what stands
+   in truth at S - x' (home cell's coordinates), the difference that gravity makes is of x_i - (S - x') =
+   -(x_i - x') + 2 x_i - S. */
 static void factors_of(const sph_sim *sim, const sph_thread *t, uint32_t h, bool ghosts, sph_factors *f)
 {
     const sph_config *c = &sim->cfg;

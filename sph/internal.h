@@ -294,8 +294,8 @@ double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double
 /* 1 - D of a particle */
 #define sph_whole_of SPH_NAME(whole_of_)
 sph_real sph_whole_of(const sph_buffer *b, uint32_t i);
-/* The energy that a particle of a buffer holds (J): of motion; in gravity, from height 0; of compression by the pressure
-   that acts; of distortion, (1 - D) S:S/(4 mu) on its volume at rest; and what its yielding took. */
+/* The energy that a particle of a buffer holds (J): of motion; in gravity, from height 0; of compression by the
+   pressure that acts; of distortion, (1 - D) S:S/(4 mu) on its volume at rest; and what its yielding took. */
 typedef struct sph_energy {
     double kinetic, potential, internal, elastic, plastic;
 } sph_energy;

@@ -137,8 +137,11 @@ SPH_INLINE_BIG void sph_place(const sph_sim *sim, uint32_t i, const double *d, c
         t->left++;
         if (sim->cfg.on_leave == SPH_FAIL || !sph_is_body(&sim->set[b->set[0][i]]))
             sph_note_left(sim, q, sph_source_id(sim, i), t);
-        else
+        else {
+            if (SPH_WITH_BOOKS)
+                sph_carry_off(sim, b, i, t);
             b->set[0][i] = SPH_DEAD;
+        }
         return;
     }
     t->reflected += r == 1;

@@ -133,6 +133,8 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
         if (own && (sim->cfg.on_leave == SPH_FAIL || !body))
             sph_note_left(sim, q, b->id[0][i], t);
         t->left += own && !all;
+        if (SPH_WITH_BOOKS && own && !all)
+            sph_carry_off(sim, b, i, t);
         return;
     }
     t->reflected += own && !all && r == 1 && sim->stage->reflects;

@@ -3,7 +3,7 @@
    summed and integrated over time by the trapezoidal rule. What happens at once (JUMP_..., J) is added as it happens:
    velocities of held sets that leap, particles put back or removed, damage, damping, the Shepard filter.
 
-   Arrays: power (7 reals a particle), partial (12 doubles a chunk). Cost: a loop over particles in double at a step's
+   Arrays: power (7 reals a particle), partial (13 doubles a chunk). Cost: a loop over particles in double at a step's
    end. */
 #include "locals.h"
 #include "arithmetic.h"
@@ -32,16 +32,16 @@ static double held_gain(const sph_sim *sim, const sph_set *set)
     return gain;
 }
 
-/* What damping has taken from a particle, J/kg: each time that v became g v it took (1/g^2 - 1)/2 v^2 of the new v. Of
-   two times, the first had a velocity that differs by half a step's kick. */
+/* What damping has taken from a particle, J/kg: each time that v became g v it took (1/g^2 - 1)/2 v^2 of the new v; two
+   times, (1/g^4 - 1)/2 v^2, but for the kick between them. */
 static double damping_loss(const sph_sim *sim, const sph_set *set, const sph_buffer *b, uint32_t i)
 {
-    const double g = sim->cfg.damping, times = sim->stage->damps ? 2 : 1;
+    const double g2 = sim->cfg.damping * sim->cfg.damping, whole = sim->stage->damps ? g2 * g2 : g2;
     const uint32_t held = sph_held(sim, set);
     double v2 = 0;
     for (uint32_t k = 0; k < SPH_DIM; k++)
         v2 += held >> k & 1 ? 0 : (double)b->vel[k][i] * (double)b->vel[k][i];
-    return times * 0.5 * (1 / (g * g) - 1) * v2;
+    return 0.5 * (1 / whole - 1) * v2;
 }
 
 /* sums of powers for the books: one row a chunk, added up in order of chunks afterwards */

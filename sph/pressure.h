@@ -9,8 +9,9 @@
 
 #include "continuity.h"
 
-/* What the home's own energy gains where the density goes as continuity.h says: p/rho^2 of its rate. Where it is summed,
-   what this home's motion makes both of a pair gain: images then move as their places do, not as their velocities say. */
+/* What the home's own energy gains where the density goes as continuity.h says: p/rho^2 of its rate. Where it is
+   summed, what this home's motion makes both of a pair gain: images then move as their places do, not as their
+   velocities say. */
 SPH_INLINE vreal sph_pressure_gain(const sph_choice *c, const sph_factors *f, const sph_home *h, const sph_near *p)
 {
     const bool weak = sph_weak_scheme(c->scheme);

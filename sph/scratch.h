@@ -11,9 +11,9 @@
 #define SPH_TILE_ROOM (SPH_TILE + SPH_STRIDE)
 #define SPH_HOMES 16u /* a multiple of 8 */
 #define SPH_HOME_ROOM (SPH_HOMES + SPH_LANES)
-#define SPH_SUMS                                                                                                    \
-    ((SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12) + (SPH_WITH_BOOKS ? 1 + SPH_HAS_LAYERED_WALLS + SPH_WITH_SOLID : 0) +  \
-     (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0))
+#define SPH_SUMS                                                                                                   \
+    ((SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12) + (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0) +                      \
+     (SPH_WITH_BOOKS ? 1 + SPH_HAS_LAYERED_WALLS + SPH_WITH_SOLID : 0))
 #define SPH_SWEEP_CHUNK 32u  /* cells */
 #define SPH_SLICE_CHUNK 1u   /* cells, in a step that is done in slices */
 #define SPH_LOCAL_CHUNK 256u /* particles */
@@ -77,6 +77,8 @@ typedef struct sph_thread {
     sph_peaks peaks;
     sph_fail fail;
     uint32_t crossed, put_back, reflected, left, removed, widest;
+    uint64_t carried_off; /* books: energy of those that left, in small steps (threads.c): whole, so that order does not
+                             matter; modulo 2^64 */
 } sph_thread;
 
 /* the particles of a chunk of a local pass */

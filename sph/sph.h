@@ -167,9 +167,11 @@ enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_S
    kinematic viscosity nu (Morris, Fox & Zhu 1997, with the mean of both densities). */
 enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
 
-/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W, which limits the step to h/(8 delta c0). MOLTENI: psi = (rho_j - rho_i)
-   r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
-   two positions is taken off first (Fourtakas et al. 2019, linearised), so still water stays still. */
+/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W over what is of one material; it limits the
+   step to h/(8 delta c0). MOLTENI: psi = (rho_j - rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density
+   difference that gravity makes between the two positions (of an image: of its original's) is taken off first
+   (Fourtakas et al. 2019, linearised), so still water stays still. Of sets with sound speeds of their own (sph_fluid)
+   diffusion takes the set's, artificial viscosity the mean of both. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
 /* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of
@@ -641,10 +643,10 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
-    X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                                               \
-    X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")                               \
-    X(put_back_loss, "J", SPH_WITH_BOOKS && c->books, "lost by particles that were put back off a wall; < 0: gained")                   \
-    X(filtered, "J", SPH_WITH_BOOKS && c->books, "taken from the internal energy by the Shepard filter")                                \
+    X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                             \
+    X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")             \
+    X(put_back_loss, "J", SPH_WITH_BOOKS && c->books, "lost by particles that were put back off a wall; < 0: gained") \
+    X(filtered, "J", SPH_WITH_BOOKS && c->books, "taken from the internal energy by the Shepard filter")              \
     X(damped, "J", SPH_WITH_BOOKS && c->books, "kinetic energy that damping took, to first order in dt")
 
 /* Energy is accounted for whole. At every instant

@@ -82,7 +82,7 @@ SPH_INLINE void corrected_stress(const sph_candidates *r, uint32_t i, vreal rho,
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = 0; l < SPH_DIM; l++) {
             vreal sum = v_set(0);
-            for (int m = 0; m < SPH_DIM; m++) { /* the index that is summed turns as both: 1 but behind a no-slip face */
+            for (int m = 0; m < SPH_DIM; m++) { /* the index that is summed turns as both: 1 but in no-slip images */
                 const sph_real turn = r->im->flip[m] * (sph_real)r->im->sign[m];
                 sum = sum + s[sph_sym[k][m]] * (turn * v_load(r->sim->corr[l * SPH_DIM + m] + i));
             }

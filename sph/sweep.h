@@ -93,6 +93,9 @@ uint32_t sph_local_chunks(const sph_sim *sim);
 #define sph_fail_note SPH_NAME(fail_note_)
 #define SPH_OUT_OF_FACE 64 /* as a status: out of the domain through face 2 axis + (0 low, 1 high) */
 void sph_fail_note(sph_thread *t, sph_status s, uint32_t id, double value);
+/* books: the energy that particle i of a buffer has is carried off with it */
+#define sph_carry_off SPH_NAME(carry_off_)
+void sph_carry_off(const sph_sim *sim, const sph_buffer *b, uint32_t i, sph_thread *t);
 /* starts what threads see afresh; adds up what they saw in a pass, and returns the failure, if there was one */
 #define sph_clear_threads SPH_NAME(clear_threads_)
 void sph_clear_threads(sph_sim *sim);

@@ -116,10 +116,10 @@ SPH_INLINE_BIG bool sph_invert(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH
     return true;
 }
 
-/* Inverse of a sum M = -sum m_j x_ij (x) K g around a particle, or false where its neighbours do not span space: where M
-   is nearly singular, or smaller than six tenths of what a particle in the corner of a block has, `whole` times
-   2^-SPH_DIM on every axis (lone particles, pairs, drops: of a neighbour at the edge of the support M is any multiple of
-   a tensor of good shape). whole: what it is inside a body, rho; in the weak scheme 1. */
+/* Inverse of a sum M = -sum m_j x_ij (x) K g around a particle, or false where its neighbours do not span space: where
+   M is nearly singular, or smaller than six tenths of what a particle in the corner of a block has, `whole` times
+   2^-SPH_DIM on every axis (lone particles, pairs, drops: of neighbours at the edge of the support M is as small as one
+   likes, of whatever shape). whole: what it is inside a body, rho; in the weak scheme 1. */
 SPH_INLINE bool sph_invert_sum(const sph_real (*m)[SPH_DIM], sph_real (*inv)[SPH_DIM], sph_real whole)
 {
     const sph_real edge = (sph_real)0.6 / (1 << SPH_DIM) * whole;

@@ -16,8 +16,8 @@ static double sound_of(const sph_sim *sim, const sph_set *set)
     return __builtin_sqrt(c2 + 4 * sph_material_of(sim, set)->shear / (3 * set->rho0));
 }
 
-/* the fastest sound of the scene's sets (m/s); nominal: the fastest c0 of its bodies, with which viscosity and diffusion
-   are made */
+/* the fastest sound of the scene's sets (m/s); nominal: the fastest c0 of its bodies, with which viscosity and
+   diffusion are made */
 static double fastest_sound(const sph_sim *sim, bool nominal)
 {
     /* before there are sets; and bodies in contact push each other by the configuration's */

@@ -77,7 +77,7 @@ static void a_particle_costs_what_the_constant_says(void **state)
         o.c.max_particles = few;
         const size_t before = sph_arena_bytes(&o.c);
         o.c.max_particles = many;
-        const size_t books = o.c.books ? (many - few) / 256 * 5 * sizeof(double) : 0;
+        const size_t books = o.c.books ? (many - few) / 256 * 13 * sizeof(double) : 0;
         const size_t a_particle = (sph_arena_bytes(&o.c) - before - books) / (many - few);
         if (a_particle != SPH_PARTICLE_BYTES(o.use))
             fail_msg("combination %u: %zu bytes a particle, SPH_PARTICLE_BYTES %u", i, a_particle,

@@ -4,8 +4,8 @@
      d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes
 
    to rounding, in every form: schemes, viscosities, diffusion, gradients, walls, faces, solids, contact, artificial
-   stress, damage, held sets. The left side is made here of velocities, accelerations and rates, and of the energies that
-   are the kernel's definition (sph_totals); nothing depends on the integrator. */
+   stress, damage, held sets. The left side is made here of velocities, accelerations and rates, and of the energies
+   that are the kernel's definition (sph_totals); nothing depends on the integrator. Then what happens at once. */
 #include "bodies.h"
 
 #define N (SPH_DIM == 1 ? 30u : SPH_DIM == 2 ? 10u : 5u)
@@ -145,8 +145,8 @@ static sph_sim *make(const scene *s, double moved)
             x[k] = (at % N + 0.5 + 0.2 * (2 * sph_rng_uniform(&rng) - 1)) * DX + moved * v[k];
         }
         /* bodies meet in the middle of the first axis */
-        must(sim, sph_add_particle(sim, set[x[0] > 0.5 * EDGE], x, v, 1000 * (1 + 0.05 * (2 * sph_rng_uniform(&rng) - 1)),
-                                   NULL));
+        const double rho = 1000 * (1 + 0.05 * (2 * sph_rng_uniform(&rng) - 1));
+        must(sim, sph_add_particle(sim, set[x[0] > 0.5 * EDGE], x, v, rho, NULL));
     }
     if (s->wall)
         add_wall(sim, s);
@@ -162,7 +162,8 @@ static double rate_of(const sph_sim *sim, uint32_t i, double *size)
     const sph_buffer *b = &sim->buf[sim->cur];
     const sph_set *s = &sim->set[b->set[0][i]];
     const double rho = s->rho0 * (1 + (double)b->rho[0][i]), p = sph_pressure(sim, s, (double)b->rho[0][i]);
-    const double root = b->damage[0] ? (double)b->damage[0][i] : 0, whole = 1 - (SPH_DIM == 3 ? root * root : root) * root;
+    const double root = b->damage[0] ? (double)b->damage[0][i] : 0;
+    const double whole = 1 - (SPH_DIM == 3 ? root * root : root) * root;
     double sum = (p < 0 ? whole : 1) * p / (rho * rho) * s->rho0 * (double)b->drho[0][i];
     double big = s->c0 * s->c0 * 0.05 * fabs((double)b->drho[0][i]);
     for (int k = 0; k < SPH_DIM; k++) {
@@ -352,6 +353,151 @@ static void the_books_of_solids_balance_at_every_instant(void **state)
         assert_true(seen[k] > 1e-4);
 }
 
+/* ---- what happens at once ---- */
+
+/* steps a simulation and returns by how much the balance drifts */
+static double drift_of(sph_sim *sim, int steps, sph_totals *t)
+{
+    must(sim, sph_ready(sim));
+    sph_get_totals(sim, t);
+    const double before = t->balance;
+    for (int k = 0; k < steps; k++)
+        must(sim, sph_step(sim));
+    sph_get_totals(sim, t);
+    return t->balance - before;
+}
+
+/* a block of water, thrown along axis 0 at this speed */
+static sph_sim *thrown(const sph_config *c, double speed, double spread)
+{
+    sph_sim *sim = new_sim(c);
+    uint32_t set;
+    sph_rng rng;
+    sph_rng_seed(&rng, 11, 2);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    for (uint32_t i = 0, total = SPH_DIM == 1 ? N : SPH_DIM == 2 ? N * N : N * N * N; i < total; i++) {
+        double x[SPH_DIM], v[SPH_DIM] = {0};
+        uint32_t at = i;
+        for (int k = 0; k < SPH_DIM; k++, at /= N)
+            x[k] = (at % N + 0.5) * DX;
+        v[0] = speed;
+        must(sim, sph_add_particle(sim, set, x, v, 1000 * (1 + spread * (2 * sph_rng_uniform(&rng) - 1)), NULL));
+    }
+    return sim;
+}
+
+static sph_config quiet_config(void)
+{
+    sph_config c = open_config(EDGE, DX);
+    c.books = true;
+    c.viscosity = SPH_INVISCID;
+    c.dt = 1e-5;
+    for (int k = 0; k < SPH_DIM; k++)
+        c.gravity[k] = 1.5 - k;
+    return c;
+}
+
+static void what_leaves_takes_its_energy_along(void **state)
+{
+    (void)state;
+    for (uint32_t integrator = 0; integrator < SPH_INTEGRATORS; integrator++) {
+        sph_config c = quiet_config();
+        sph_totals t;
+        c.on_leave = SPH_REMOVE;
+        c.hi[0] = EDGE;
+        c.integrator = integrator;
+        sph_sim *sim = thrown(&c, 40, 0.02);
+        const double drift = drift_of(sim, 200, &t);
+        print_message("integrator %u: carried off %.4g J, unexplained %.2g\n", integrator, t.carried_off, drift);
+        assert_true(t.carried_off > 0.5 * t.removed_mass * 30 * 30 && t.removed_mass > 0);
+        close_to(drift, 0, 2e-3 * t.carried_off);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+static void what_is_put_back_or_removed_at_a_wall_is_on_the_books(void **state)
+{
+    (void)state;
+    for (int removes = 0; removes < 2; removes++) {
+        sph_config c = quiet_config();
+        sph_wall w = sph_wall_default();
+        sph_totals t;
+        double lo[SPH_DIM], hi[SPH_DIM];
+        c.on_cross = removes ? SPH_REMOVE : SPH_PUT_BACK;
+        w.kind = SPH_WALL_MONAGHAN_KOS;
+        w.strength = 1e-3; /* as good as not there */
+        for (int k = 0; k < SPH_DIM; k++) {
+            lo[k] = -0.4 * EDGE;
+            hi[k] = EDGE;
+        }
+        lo[0] = 0.5 * DX - 1e-3;
+        c.on_leave = SPH_REMOVE;
+        sph_sim *sim = thrown(&c, -40, 0.02);
+        must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, NULL));
+        const double drift = drift_of(sim, 20, &t), taken = removes ? t.carried_off : t.put_back_loss;
+        print_message("%s: %.4g J, unexplained %.2g\n", removes ? "removed" : "put back", taken, drift);
+        assert_true(taken > 0.1 * t.kinetic / N);
+        close_to(drift, 0, 5e-3 * taken);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+static void what_filter_and_damping_take_is_on_the_books(void **state)
+{
+    (void)state;
+    for (uint32_t integrator = 0; integrator < SPH_INTEGRATORS; integrator++)
+        for (int damps = 0; damps < 2; damps++) {
+            sph_config c = quiet_config();
+            sph_totals t;
+            c.integrator = integrator;
+            c.shepard_every = damps ? 0 : 3;
+            c.damping = damps ? 0.99 : 1;
+            sph_sim *sim = thrown(&c, damps ? 3 : 0, damps ? 0 : 0.05);
+            const double drift = drift_of(sim, 30, &t), taken = damps ? t.damped : t.filtered;
+            print_message("integrator %u: %s %.4g J, unexplained %.2g\n", integrator, damps ? "damped" : "filtered",
+                          taken, drift);
+            assert_true(taken > 0.02 * (t.kinetic + t.internal));
+            close_to(drift, 0, 0.01 * taken);
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
+#if SPH_DIM > 1
+/* a block in tension that cracks; and what a cracked block holds is its share */
+static void damage_lets_go_of_what_the_books_say(void **state)
+{
+    const sph_solid m = {.shear = MU, .crack_speed = 20};
+    const sph_flaws f = {.k = 1e9, .m = 4, .seed = 1};
+    sph_config c = solid_config(SPH_UPDATED, SPH_PREDICTOR_CORRECTOR, 2 * EDGE, DX);
+    sph_totals t;
+    uint32_t set;
+    (void)state;
+    c.max_particles = N * N * (SPH_DIM == 3 ? N : 1);
+    c.damage = SPH_BENZ_ASPHAUG;
+    c.max_flaws = 20 * c.max_particles;
+    c.books = true;
+    c.dt = 1e-5;
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_solid(sim, &m, &set, NULL));
+    add_block(sim, set, N, DX, 0);
+    must(sim, sph_add_flaws(sim, set, &f));
+    set_density(sim, -0.03);
+    const double drift = drift_of(sim, 100, &t);
+    print_message("released %.4g J of %.4g, unexplained %.2g\n", t.released, t.internal + t.elastic, drift);
+    assert_true(t.released > 0.05 * (t.internal + t.elastic));
+    close_to(drift, 0, 0.01 * t.released);
+    for (int cracked = 0; cracked < 2; cracked++) {
+        const double held = t.internal;
+        for (uint32_t i = 0; i < sph_count(sim); i++)
+            sim->buf[sim->cur].damage[0][i] = (sph_real)(cracked ? SPH_DIM == 2 ? sqrt(0.75) : cbrt(0.75) : 0);
+        set_density(sim, -0.03);
+        sph_get_totals(sim, &t);
+        if (cracked)
+            close_to(t.internal, 0.25 * held, 1e-6 * held);
+    }
+}
+#endif
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
@@ -360,6 +506,12 @@ int main(void)
         subject(the_books_balance_where_density_is_summed),
 #endif
         subject(the_books_of_solids_balance_at_every_instant),
+        subject(what_leaves_takes_its_energy_along),
+        subject(what_is_put_back_or_removed_at_a_wall_is_on_the_books),
+        subject(what_filter_and_damping_take_is_on_the_books),
+#if SPH_DIM > 1
+        subject(damage_lets_go_of_what_the_books_say),
+#endif
     };
     return run_subjects("balance", list);
 }

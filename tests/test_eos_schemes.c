@@ -154,7 +154,8 @@ static void internal_energy_is_the_work_of_the_pressure_that_acts(void **state)
     for (uint32_t eos = 0; eos < SPH_EOSES; eos++)
         for (int floor_ = 0; floor_ < 2; floor_++)
             for (uint32_t i = 0; i < sizeof s / sizeof *s; i++) {
-                /* the state holds s - 1 to eps: so is the energy, by the pressure's work over that; the rule errs by 1e-9 */
+                /* the state holds s - 1 to eps: so is the energy, by the pressure's work over that; the rule errs by
+                   1e-9 */
                 const double want = energy_of(eos, floor_, s[i]);
                 const double slope = fabs(energy_of(eos, floor_, s[i] * 1.0001) - want) / 1e-4;
                 close_to(held_energy(eos, floor_, s[i]), want, 1e-9 * fabs(want) + 4 * EPS * slope + 1e-4 * EPS);

@@ -252,8 +252,8 @@ static void a_sheared_block_hangs_on_a_no_slip_face(void **state)
 }
 #endif
 
-/* three particles of which each is almost, or just, out of the others' reach are pulled as without correction: M of them
-   is tiny but of good shape */
+/* three particles of which each is almost, or just, out of the others' reach are pulled as without correction: M of
+   them is tiny but of good shape */
 static void too_few_neighbours_take_the_plain_gradient(void **state)
 {
     static const double places[4][3] = {{0}, {1}, {0.5, 0.8660254}, {0.5, 0.2886751, 0.8164966}};

@@ -243,10 +243,10 @@ static void piston(void *ctx, double t, double *x, double *v)
     v[0] = t;
 }
 
-static void a_moving_wall_does_the_work_that_the_fluid_gains(void **state)
+/* solid: the scene's form of solids, though it has none: the books are the same */
+static double a_moving_wall(uint32_t solid)
 {
-    double lo[SPH_DIM], hi[SPH_DIM];
-    (void)state;
+    double lo[SPH_DIM], hi[SPH_DIM], all = 0;
     ends(lo, hi);
     for (uint32_t kind = SPH_WALL_MONAGHAN_KOS; kind < SPH_WALLS; kind++) {
         sph_config c = tank_config();
@@ -256,6 +256,7 @@ static void a_moving_wall_does_the_work_that_the_fluid_gains(void **state)
         c.books = true;
         c.viscosity = SPH_INVISCID;
         c.dt = 2e-4;
+        c.solid = solid;
         for (uint32_t k = 0; k < SPH_DIM; k++)
             rest |= SPH_LOW(k) | SPH_HIGH(k);
         sph_sim *sim = new_sim(&c);
@@ -267,22 +268,19 @@ static void a_moving_wall_does_the_work_that_the_fluid_gains(void **state)
         must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, NULL));
         must(sim, sph_ready(sim));
         sph_get_totals(sim, &t);
-        const double before = t.kinetic + t.internal;
+        const double before = t.kinetic + t.internal, balance = t.balance;
         while (sph_time(sim) < 0.2)
             must(sim, sph_step(sim));
         sph_get_totals(sim, &t);
         const double gained = t.kinetic + t.internal - before;
-        print_message("wall kind %u: work %.5g, energy gained %.5g\n", kind, t.wall_work, gained);
-        assert_true(t.wall_work > 0);
-        /* A held ghost has no pressure of its own, so the account closes but for the error of time. Force walls hold
-           energy
-           of their own, and the pressure that Adami's extrapolation gives a wall does work on the wall's density, which
-           is
-           not evolved: their accounts need not close, but the fluid cannot gain more than a layer's work. */
-        if (kind == SPH_WALL_GHOST)
-            close_to(gained, t.wall_work, 1e-3 * t.wall_work);
-        if (kind == SPH_WALL_ADAMI)
-            assert_true(gained > 0 && gained < t.wall_work);
+        print_message("wall kind %u: work %.5g, energy gained %.5g, in walls %.5g, unexplained %.2g\n", kind, t.wall_work,
+                      gained, t.in_walls, t.balance - balance);
+        assert_true(t.wall_work > 0 && gained > 0);
+        /* A held ghost has no pressure of its own. Force walls hold energy of their own, and the pressure that Adami's
+           extrapolation gives a wall does work on the wall's density, which is not evolved: that is on the books too. */
+        assert_true(kind == SPH_WALL_GHOST ? t.in_walls >= 0 && t.in_walls <= 0 : fabs(t.in_walls) > 0.01 * t.wall_work);
+        close_to(t.balance, balance, 2e-3 * t.wall_work);
+        all += t.wall_work;
         sph_particle p;
         for (uint32_t i = 0; i < sph_count(sim); i++) {
             assert_int_equal(sph_get(sim, i, &p), SPH_OK);
@@ -292,6 +290,14 @@ static void a_moving_wall_does_the_work_that_the_fluid_gains(void **state)
         close_to(p.v[0], sph_time(sim), 1e-9);
         assert_int_equal(free_sims(NULL), 0);
     }
+    return all;
+}
+static void a_moving_wall_does_the_work_that_the_fluid_gains(void **state)
+{
+    (void)state;
+    const double work = a_moving_wall(SPH_NO_SOLID);
+    for (uint32_t form = SPH_UPDATED; form <= SPH_TOTAL; form++)
+        close_to(a_moving_wall(form), work, 1e-3 * work);
 }
 
 static void a_gate_is_gone_when_its_time_has_come(void **state)

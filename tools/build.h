@@ -27,7 +27,7 @@ typedef struct build_totals {
     uint32_t fluid, wall, solid;
     bool books; /* are wall_work, dissipated, diffused kept? else they are 0 and mean nothing */
     double mass, momentum[3], kinetic, potential, internal, elastic, plastic_work, wall_work, dissipated, diffused,
-        removed_mass, max_speed, min_density, max_density;
+        removed_mass, max_speed, min_density, max_density, body_work, in_walls, in_bonds, unbalanced, at_once, balance;
 } build_totals;
 
 typedef struct build_sim build_sim; /* a simulation with its arena, scene and parameters */

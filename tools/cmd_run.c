@@ -208,7 +208,11 @@ static void report_books(const run *r, const build_totals *o, FILE *out)
     if (o->books)
         fprintf(out, "books          wall work %.8g, dissipated %.8g, diffused %.8g %s\n", o->wall_work, o->dissipated,
                 o->diffused, joule);
-    else
+    if (o->books) {
+        fprintf(out, "               in walls %.8g, in bonds %.8g, unbalanced %.8g, at once %.8g %s\n", o->in_walls,
+                o->in_bonds, o->unbalanced, o->at_once, joule);
+        fprintf(out, "balance        %.10g %s\n", o->balance, joule);
+    } else
         fprintf(out, "books          of work and dissipation are not kept (books=yes keeps them)\n");
 }
 

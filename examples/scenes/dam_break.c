@@ -95,7 +95,7 @@ static double end(const double *p) { return (p[N2] > 1 ? 6 : 4) / rate(p); }
 
 static const char *const column[] = {"time_s",     "T_-",        "Z_-",         "closed_end_height_-", "kinetic_J/m",
                                      "potential_J/m", "internal_J/m", "wall_work_J/m", "dissipated_J/m", "diffused_J/m",
-                                     "mass_kg/m",  "particles_-"};
+                                     "mass_kg/m",  "particles_-", "in_walls_J/m", "balance_J/m"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {
@@ -110,7 +110,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     const double values[] = {sph_time(sim), sph_time(sim) * rate(p), (front - lo[0] + 0.5 * spacing(p)) / p[A],
                              (height - lo[1]) / (p[N2] * p[A]), o.kinetic, o.potential, o.internal, o.wall_work,
                              o.dissipated,
-                             o.diffused, o.mass, o.fluid};
+                             o.diffused, o.mass, o.fluid, o.in_walls, o.balance};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];
 }

@@ -71,7 +71,8 @@ static double end(const double *p) { return 3 / rate(p); }
 
 static const char *const column[] = {"time_s",      "T_-",          "Z_-",           "closed_end_height_-",
                                      "kinetic_J",   "potential_J",  "internal_J",    "wall_work_J",
-                                     "dissipated_J", "diffused_J",  "mass_kg",       "particles_-"};
+                                     "dissipated_J", "diffused_J",  "mass_kg",       "particles_-",
+                                     "in_walls_J",   "balance_J"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {
@@ -84,7 +85,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     sph_gauge(sim, at, 2, &height);
     const double values[] = {sph_time(sim), sph_time(sim) * rate(p), (front + 0.5 * spacing(p)) / p[A],
                              height / (p[N2] * p[A]), o.kinetic, o.potential, o.internal, o.wall_work, o.dissipated,
-                             o.diffused, o.mass, o.fluid};
+                             o.diffused, o.mass, o.fluid, o.in_walls, o.balance};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];
 }

@@ -89,7 +89,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     row[10] = o.internal;
     row[11] = o.elastic;
     row[12] = o.dissipated;
-    row[13] = o.kinetic + o.internal + o.elastic + o.dissipated;
+    row[13] = o.balance;
     row[14] = solid_closest(sim, &c);
 }
 

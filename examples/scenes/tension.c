@@ -94,7 +94,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     row[12] = o.internal;
     row[13] = o.dissipated;
     row[14] = o.wall_work;
-    row[15] = o.kinetic + o.elastic + o.internal + o.plastic_work + o.dissipated - o.wall_work;
+    row[15] = o.balance;
 }
 
 #define scene_tension SPH_NAME(scene_tension)
