@@ -366,7 +366,7 @@ static void say_finding(void *ctx, const sph_finding *f)
     (void)ctx;
     if (f->kind == SPH_FINDING_SPARE) /* scenes leave room on purpose */
         return;
-    fprintf(stderr, "note: %u %s: %g (limit %g)", f->count, f->text, f->value, f->limit);
+    fprintf(stderr, "note: %s: %u, worst %g (limit %g)", f->text, f->count, f->value, f->limit);
     if (f->particle != SPH_NO_PARTICLE)
         fprintf(stderr, ", particle %u", f->particle);
     if (f->other != SPH_NO_PARTICLE)
