@@ -193,6 +193,33 @@ static void a_bounce_keeps_the_speed(void **state)
     }
 }
 
+/* mu of the Courant limit is v.x/(r^2 + 0.01 h^2), whatever the densities of the two are */
+static void the_courant_limit_sees_mu_between_fluids_of_any_density(void **state)
+{
+    (void)state;
+    for (int light = 0; light < 2; light++) {
+        sph_config c = open_config(1, 0.1);
+        const sph_fluid other = {.rho0 = light ? 1 : 900};
+        const double h = c.smoothing_length, r = 0.1, v = 3;
+        double x[SPH_DIM] = {0}, v0[SPH_DIM] = {0};
+        uint32_t set, second;
+        c.integrator = SPH_RUNGE_KUTTA;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_fluid(sim, NULL, &set));
+        must(sim, sph_add_fluid(sim, &other, &second));
+        must(sim, sph_add_particle(sim, set, x, NULL, 0, NULL));
+        x[0] = r;
+        v0[0] = v;
+        must(sim, sph_add_particle(sim, second, x, v0, 0, NULL));
+        must(sim, sph_ready(sim));
+        sph_step_info info;
+        sph_get_step(sim, &info);
+        const double want = c.cfl * h / (c.sound_speed + h * v * r / (r * r + 0.01 * h * h));
+        close_to(info.limit_dt[SPH_LIMIT_COURANT] / want, 1, 1e-5);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
 /* free fall, 0.5 s with steps of 0.01 s, then 0.5 s with steps of 1e-4 s: exact but for rounding */
 static void steps_that_change_fall_exactly(void **state)
 {
@@ -258,6 +285,7 @@ int main(void)
     const struct CMUnitTest list[] = {
         subject(sound_travels_at_the_speed_of_the_equation_of_state),
         subject(the_limits_of_the_step_are_the_printed_ones),
+        subject(the_courant_limit_sees_mu_between_fluids_of_any_density),
         subject(a_falling_body_falls_exactly),
         subject(a_bounce_keeps_the_speed),
         subject(steps_that_change_fall_exactly),

@@ -53,6 +53,49 @@ static void every_kind_of_wall_repels_from_every_side(void **state)
         }
 }
 
+/* halfway between a row and its image in a mirror the two pushes cancel */
+static void the_image_of_a_boundary_wall_pushes_the_other_way(void **state)
+{
+    (void)state;
+    for (uint32_t kind = SPH_WALL_LENNARD_JONES; kind <= SPH_WALL_MONAGHAN_KOS; kind++) {
+        sph_config c = tank_config();
+        sph_wall w = sph_wall_default();
+        double lo[SPH_DIM], hi[SPH_DIM], x[SPH_DIM];
+        uint32_t set, id;
+        ends(lo, hi);
+        w.kind = kind;
+        c.hi[0] = hi[0] = 0.9 * DX;
+        c.face[0][1] = SPH_SYMMETRY;
+        for (int k = 0; k < SPH_DIM; k++)
+            x[k] = 0.5 * EDGE;
+        x[0] = hi[0] - 1e-6 * DX;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_fluid(sim, NULL, &set));
+        must(sim, sph_add_particle(sim, set, x, NULL, 0, &id));
+        must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, NULL));
+        must(sim, sph_ready(sim));
+        close_to(by_id(sim, id).a[0], 0, 1e-4 * c.sound_speed * c.sound_speed / DX);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+/* it reaches two spacings, and the sweep no further than a support */
+static void a_monaghan_kos_wall_asks_for_a_support_of_two_spacings(void **state)
+{
+    (void)state;
+    for (int narrow = 0; narrow < 2; narrow++) {
+        sph_config c = tank_config();
+        sph_wall w = sph_wall_default();
+        double lo[SPH_DIM], hi[SPH_DIM];
+        ends(lo, hi);
+        w.kind = SPH_WALL_MONAGHAN_KOS;
+        c.smoothing_length = (narrow ? 0.99 : 1.01) * DX;
+        sph_sim *sim = new_sim(&c);
+        assert_int_equal(sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, NULL), narrow ? SPH_BAD_ARGUMENT : SPH_OK);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
 static uint32_t count_walls(const sph_sim *sim)
 {
     sph_totals t;
@@ -445,6 +488,8 @@ int main(void)
 {
     const struct CMUnitTest list[] = {
         subject(every_kind_of_wall_repels_from_every_side),
+        subject(the_image_of_a_boundary_wall_pushes_the_other_way),
+        subject(a_monaghan_kos_wall_asks_for_a_support_of_two_spacings),
         subject(walls_stand_where_they_should),
 #if SPH_DIM > 1
         subject(a_corner_pushes_along_the_diagonal),
