@@ -161,8 +161,8 @@ enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_S
 enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
 
 /* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W over what is of one material; it limits the
-   step to h/(8 delta c0). MOLTENI: psi = (rho_j - rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density
-   difference that gravity makes between the two positions (of an image: of its original's) is taken off first
+   step to h/(8 delta c0). MOLTENI: psi = (rho_j - rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the
+   density difference that gravity makes between the two positions (of an image: of its original's) is taken off first
    (Fourtakas et al. 2019, linearised), so still water stays still. Of sets with sound speeds of their own (sph_fluid)
    diffusion takes the set's, artificial viscosity the mean of both. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };

@@ -343,8 +343,8 @@ static void report(const run *r, FILE *out)
         fprintf(out, "solids         elastic %.8g, plastic work %.8g J\n", o.elastic, o.plastic_work);
     fprintf(out, "books          wall work %.8g, dissipated %.8g, diffused %.8g J\n", o.wall_work, o.dissipated,
             o.diffused);
-    fprintf(out, "               in walls %.8g, in bonds %.8g, unbalanced %.8g, at once %.8g J\n", o.in_walls, o.in_bonds,
-            o.unbalanced, o.at_once);
+    fprintf(out, "               in walls %.8g, in bonds %.8g, unbalanced %.8g, at once %.8g J\n", o.in_walls,
+            o.in_bonds, o.unbalanced, o.at_once);
     fprintf(out, "balance        %.10g J\n", o.balance);
     fprintf(out, "density        %.8g .. %.8g kg/m^3; mass %.10g kg; fastest %.6g m/s\n", o.min_density, o.max_density,
             o.mass, o.max_speed);
