@@ -16,8 +16,6 @@ static __attribute__((noinline)) sph_status check_positive(sph_sim *sim, const c
 
 static bool same(double a, double b) { return !(a < b) && !(b < a); }
 
-static bool is_usual(double v, double usual) { return v == 0 || same(v, usual); }
-
 /* whom a new set is of one material with, and whether the scene's sums must ask that of pairs */
 static void find_kin(sph_sim *sim, sph_set *s)
 {
@@ -50,9 +48,8 @@ static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint3
         (st = check_positive(sim, solid ? "solid.rho0" : "fluid.rho0", f->rho0, 1e30f)) != SPH_OK ||
         (st = check_positive(sim, solid ? "solid.sound_speed" : "fluid.sound_speed", f->sound_speed, 1e15f)) != SPH_OK)
         return st;
-    if (!SPH_WITH_SEVERAL_FLUIDS &&
-        (!is_usual(f->rho0, sim->cfg.rho0) || !is_usual(f->sound_speed, sim->cfg.sound_speed)))
-        return sph_setup_bad(sim, "rho0, sound_speed", "those of the configuration, as compiled (modules.h)", f->rho0);
+    if (!SPH_WITH_SEVERAL_FLUIDS && f->rho0 + f->sound_speed > 0)
+        return sph_setup_bad(sim, "rho0, sound_speed", "0 (modules.h)", f->rho0);
     if (f->own_eos && (!SPH_WITH_SOLID || !sph_in(SPH_EOSES_IN, f->eos)))
         return sph_setup_bad(sim, "eos", "one of SPH_TAIT .. SPH_ISOTHERMAL, compiled in (modules.h)", f->eos);
     if (sim->sets == sim->cfg.max_sets)

@@ -74,9 +74,7 @@ void sph_make_factors(sph_sim *sim)
     double h = c->smoothing_length, value, slope, support = sph_kernel_support(c->kernel);
     sph_kernel_scales(c->kernel, h, &value, &slope);
     f->inv_h = (sph_real)(1 / h);
-    /* keeps pairs at one place finite. Morris's viscosity of such a pair is 0 anyway, and 0.01 h^2 would make all others
-       1 to 5 % weak, at every resolution alike */
-    f->eta = (sph_real)((SPH_IS(c->viscosity, MORRIS) ? 1e-6 : 0.01) * h * h);
+    f->eta = (sph_real)(0.01 * h * h); /* keeps pairs at one place finite */
     f->reach = (sph_real)support;
     /* the scalar form skips pairs beyond: all terms are 0 there */
     f->reach2 = (sph_real)(support * support * h * h * 1.0001);

@@ -36,7 +36,8 @@ void sph_clear_threads(sph_sim *sim)
         s->work = s->pairs = 0;
         s->peaks = (sph_peaks){0, 0, 0};
         s->fail = (sph_fail){SPH_OK, SPH_NO_PARTICLE, 0};
-        s->carried_off = 0;
+        if (SPH_WITH_BOOKS)
+            s->carried_off = 0;
         s->crossed = s->put_back = s->reflected = s->left = s->removed = s->widest = 0;
     }
 }
@@ -55,7 +56,7 @@ sph_fail sph_gather_threads(sph_sim *sim)
         most.speed = s->peaks.speed > most.speed ? s->peaks.speed : most.speed;
         if (s->fail.status && (!fail.status || s->fail.particle < fail.particle))
             fail = s->fail;
-        carried_off += s->carried_off;
+        carried_off += SPH_WITH_BOOKS ? s->carried_off : 0;
         sim->next.crossed += s->crossed;
         sim->next.put_back += s->put_back;
         sim->next.reflected += s->reflected;

@@ -21,7 +21,9 @@ static double sound_of(const sph_sim *sim, const sph_set *set)
 static double fastest_sound(const sph_sim *sim, bool nominal)
 {
     /* before there are sets; and bodies in contact push each other by the configuration's */
-    double c = sim->sets == 0 || sph_is_total(&sim->cfg) ? sim->cfg.sound_speed : 0;
+    double c = !SPH_WITH_SEVERAL_FLUIDS || sim->sets == 0 || sph_is_total(&sim->cfg) ? sim->cfg.sound_speed : 0;
+    if (!SPH_WITH_SEVERAL_FLUIDS && !SPH_WITH_SOLID && !SPH_WITH_TAIT_GRAY)
+        return c;
     for (uint32_t s = 0; s < sim->sets; s++) {
         const sph_set *set = &sim->set[s];
         const double own = !nominal ? sound_of(sim, set) : sph_is_body(set) ? set->c0 : 0;

@@ -445,7 +445,7 @@ static void morris_viscosity_decays_a_shear_wave_at_the_exact_rate(void **state)
 #endif
 
 #if SPH_DIM == 2
-/* ---- plane Poiseuille flow: v = g/(2 nu) y (1 - y) between walls at 0 and 1, along which everything is periodic ---- */
+/* ---- plane Poiseuille flow: v = g/(2 nu) y (1 - y) between walls at 0 and 1, periodic along them ---- */
 #define POISEUILLE_NU 0.1
 #define POISEUILLE_G 0.8
 static double poiseuille(double y) { return POISEUILLE_G / (2 * POISEUILLE_NU) * y * (1 - y); }

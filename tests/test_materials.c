@@ -174,8 +174,8 @@ static void diffusion_goes_with_a_sets_own_sound(void **state)
 typedef struct water {
     double rho0, sound;
 } water;
-/* with LINEAR the density of still water that the linearised difference belongs to: along axis 0 nothing, along the last
-   rho0 g/c^2 a metre */
+/* with LINEAR the density of still water that the linearised difference belongs to: along axis 0 nothing, along the
+   last rho0 g/c^2 a metre */
 static void still(void *ctx, const double *x, double *v, double *rho)
 {
     const water *w = ctx;

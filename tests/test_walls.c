@@ -316,12 +316,13 @@ static double a_moving_wall(uint32_t solid)
             must(sim, sph_step(sim));
         sph_get_totals(sim, &t);
         const double gained = t.kinetic + t.internal - before;
-        print_message("wall kind %u: work %.5g, energy gained %.5g, in walls %.5g, unexplained %.2g\n", kind, t.wall_work,
-                      gained, t.in_walls, t.balance - balance);
+        print_message("wall kind %u: work %.5g, energy gained %.5g, in walls %.5g, unexplained %.2g\n", kind,
+                      t.wall_work, gained, t.in_walls, t.balance - balance);
         assert_true(t.wall_work > 0 && gained > 0);
         /* A held ghost has no pressure of its own. Force walls hold energy of their own, and the pressure that Adami's
-           extrapolation gives a wall does work on the wall's density, which is not evolved: that is on the books too. */
-        assert_true(kind == SPH_WALL_GHOST ? t.in_walls >= 0 && t.in_walls <= 0 : fabs(t.in_walls) > 0.01 * t.wall_work);
+           extrapolation gives a wall does work on the wall's density, which is not evolved: that is on the books. */
+        const double in = fabs(t.in_walls);
+        assert_true(kind == SPH_WALL_GHOST ? in <= 0 : in > 0.01 * t.wall_work);
         close_to(t.balance, balance, 2e-3 * t.wall_work);
         all += t.wall_work;
         sph_particle p;
@@ -339,7 +340,7 @@ static void a_moving_wall_does_the_work_that_the_fluid_gains(void **state)
 {
     (void)state;
     const double work = a_moving_wall(SPH_NO_SOLID);
-    for (uint32_t form = SPH_UPDATED; form <= SPH_TOTAL; form++)
+    for (uint32_t form = SPH_UPDATED; form <= SPH_TOTAL && SPH_DIM < 3; form++) /* 3-D takes long: test_balance.c */
         close_to(a_moving_wall(form), work, 1e-3 * work);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* diffusion.c: density diffusion, between particles of one material (sph.h, SPH_MOLTENI ...):
      drho_i = 2 delta h c sum (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + eta)
-   with eta 0.01 h^2, beside Morris's viscosity his 1e-6 h^2.
+   with eta 0.01 h^2.
    MOLTENI (Molteni & Colagrossi 2009): rho_H = 0. HYDROSTATIC (Fourtakas et al. 2019, linearised): the difference of
    density that gravity makes between the places of j and i, rho0 g . (x_j - x_i)/c^2 with
    the true sound speed c, so that still water feels none.
@@ -28,7 +28,7 @@ void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_p
         size += fabs(part);
     }
     const double c = 2 * s->cfg.delta * h * set->c0 * p->volume;
-    const double eta = s->cfg.viscosity == SPH_MORRIS ? 1e-6 * h * h : 0.01 * h * h;
+    const double eta = 0.01 * h * h;
     const double f = -p->r * p->r * p->g / (p->r * p->r + eta);
     const double near = eta / (p->r * p->r + eta) * h / o_max(p->r, 1e-4 * h);
     o_add(&i->diffused, c * drho * f, c * size * p->slope / o_max(p->r, 0.01 * h) * (1 + near));
