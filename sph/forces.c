@@ -143,9 +143,9 @@ SPH_INLINE uint32_t book_sums(const sph_choice *c, bool wall)
 /* the sums that these choices take */
 SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
 {
-    const uint32_t rates = SUM_MASK(DRHO) | (SPH_WITH_SOLID && c->solid ? SUM_MASK(GRADIENT) : 0);
+    const uint32_t gradient = SPH_WITH_SOLID && c->solid ? SUM_MASK(GRADIENT) : 0, rates = SUM_MASK(DRHO) | gradient;
     const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
-                            (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) : 0);
+                            (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0);
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
 }
 

@@ -77,7 +77,7 @@ typedef struct sph_peaks {
 
 /* constants of the pair formulas (factors.c) */
 typedef struct sph_factors {
-    sph_real inv_h, eta, reach, reach2, slope, value;
+    sph_real inv_h, eta, eta_morris, reach, reach2, slope, value;
     sph_real inv_wdx, repulsion; /* artificial stress: 1/(W(dx) without its scale), epsilon */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;

@@ -163,15 +163,16 @@ enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_S
 
 /* Viscosities. ARTIFICIAL: Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu, mu = v.r/(r^2 + 0.01 h^2), on
    approaching and receding pairs (Gray 2.18). ARTIFICIAL_APPROACHING: on approaching pairs only
-   (Wickramarachchi 3.18). MORRIS: sum m_j (4 nu/(rho_i + rho_j)) (r.grad W)/r^2 v_ij with the kinematic
-   viscosity nu (Morris, Fox & Zhu 1997, with the mean of both densities and no softening: grad W/r is finite). */
+   (Wickramarachchi 3.18). MORRIS: sum m_j (4 nu/(rho_i + rho_j)) (r.grad W)/(r^2 + 1e-6 h^2) v_ij with the
+   kinematic viscosity nu (Morris, Fox & Zhu 1997, with the mean of both densities). */
 enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
 
 /* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W over what is of one material; it limits the
-   step to h/(8 delta c0). MOLTENI: psi = (rho_j - rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the
-   density difference that gravity makes between the two positions (of an image: of its original's) is taken off first
-   (Fourtakas et al. 2019, linearised), so still water stays still. Of sets with sound speeds of their own (sph_fluid)
-   diffusion takes the set's, artificial viscosity the mean of both. */
+   step to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi = (rho_j -
+   rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the two
+   positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so still water
+   stays still. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial viscosity the
+   mean of both. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
 /* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of

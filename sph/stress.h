@@ -146,7 +146,7 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
     for (int k = 0; k < SPH_DIM; k++) {
         if (sph_takes_forces(c))
             sph_stress_push(c, h, t, p, k, fn, w, s);
-        if (!sph_takes_rates(c) && !(SPH_WITH_BOOKS && c->books && c->loses))
+        if (!sph_takes_rates(c) && !(SPH_WITH_BOOKS && c->books)) /* books ask for the gradient too */
             continue;
         vreal d = p->dv[k];
         if (c->hat)

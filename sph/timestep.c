@@ -2,6 +2,7 @@
 /* timestep.c: the time step: the smallest of what sound, viscosity, density diffusion, forces and gravity allow after
    the latest force sweep (Gray 2001 eq 2.30, Wickramarachchi 2009 eqs 3.88-3.90), unless it is fixed. */
 #include "timestep.h"
+#include "factors.h"
 #include "arithmetic.h"
 
 SPH_OBJECT(timestep)
@@ -48,9 +49,6 @@ static double size_of_gravity(const sph_config *c)
     return __builtin_sqrt(g2);
 }
 
-/* density diffusion is one of coefficient delta h c0: the rule of viscosity, h^2/8 over it */
-#define SPH_DIFFUSIVE_FACTOR 0.125
-
 void sph_find_limits(const sph_sim *sim, double *l)
 {
     const sph_config *c = &sim->cfg;
@@ -66,7 +64,7 @@ void sph_find_limits(const sph_sim *sim, double *l)
     if (a > 0)
         l[SPH_LIMIT_FORCE] = c->force_factor * __builtin_sqrt(h / a);
     if (sph_diffusive(c->diffusion) && c->delta > 0)
-        l[SPH_LIMIT_DIFFUSIVE] = SPH_DIFFUSIVE_FACTOR * h / (c->delta * nominal);
+        l[SPH_LIMIT_DIFFUSIVE] = sph_diffusion_factor(c) * h / (c->delta * nominal);
     l[SPH_LIMIT_GRAVITY] = g > 0 ? c->gravity_factor * h / (c0 + __builtin_sqrt(g * h)) : 0;
     l[SPH_LIMIT_CEILING] = c->dt_max;
 }

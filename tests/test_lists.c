@@ -382,7 +382,7 @@ static void a_column_set_is_a_line_and_its_loader(void **state)
 {
     (void)state;
     sph_sim *sim = run_block(SPH_PREDICTOR_CORRECTOR, 1e-3, 20);
-    const sph_sweep w = {any_home, SPH_BODIES, 1, false, 1u << SPH_COLUMN_spare, look_at_tile, count_home};
+    const sph_sweep w = {any_home, SPH_BODIES, 1, false, 1u << SPH_COLUMN_spare, look_at_tile, count_home, 0};
     memset(&seen, 0, sizeof seen);
     for (uint32_t chunk = 0; chunk < sph_sweep_chunks(sim); chunk++)
         sph_sweep_chunk(sim, &w, chunk, sim->thread);

@@ -3,7 +3,9 @@
      courant    cfl h/(c + h max|mu|)       c: the fastest sound of any set; of solids with 4 mu/3 rho0 (Gray 5.52)
      viscous    viscous_factor h^2/nu       nu of Morris, or alpha c0 h/(2 (DIM + 2)) of the artificial viscosity
      force      force_factor sqrt(h/max|a|) gravity  gravity_factor h/(c + sqrt(g h))
-     diffusion  0.125 h/(delta c0)          c0: the fastest of the bodies' sets, as both are made with it
+     diffusion  f h/(delta c0)              c0: the fastest of the bodies' sets, as both are made with it; f: 7/8 of what
+                the integrator stands (sph/factors.c): 1/8 (Wendland C4: 0.095), twice that in Runge-Kutta, half of it
+                in the predictor-corrector of fluids
    In the total form the configuration's sound speed counts too: contact pushes with it.
    The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25; beside
    solids 0.22 times the cube root of (delta + nu/(h c) or alpha/8)/(0.01/8), times 0.75 (updated) or 0.42, but 0.05 at
@@ -23,6 +25,14 @@ static double courant_number(const sph_config *c)
         return o_min(c->cfl, c->gradient ? 0.25 : 0.5);
     const double x = d / (0.01 / 8), stands = x < 1e-3 ? 0 : 0.22 * cbrt(o_min(x, 1e6));
     return o_min(c->cfl, o_max(stands * (c->solid >= SPH_CORRECTED ? 0.42 : 0.75), 0.05));
+}
+
+static double diffusion_number(const sph_config *c)
+{
+    const double f = 7.0 / 8 / (c->kernel == SPH_WENDLAND_C4 ? 9.2 : 7);
+    if (c->integrator == SPH_RUNGE_KUTTA || c->integrator == SPH_RUNGE_KUTTA_MOMENTUM)
+        return 2 * f;
+    return c->integrator == SPH_PREDICTOR_CORRECTOR && !c->solid ? f / 2 : f;
 }
 
 o_limits o_find_limits(const o_scene *s)
@@ -55,6 +65,6 @@ o_limits o_find_limits(const o_scene *s)
     l.viscous = nu > 0 ? c->viscous_factor * h * h / nu : 0;
     l.force = a > 0 ? c->force_factor * sqrt(h / a) : 0;
     l.gravity = g2 > 0 ? c->gravity_factor * h / (sound + sqrt(sqrt(g2) * h)) : 0;
-    l.diffusion = c->diffusion && c->delta > 0 ? 0.125 * h / (c->delta * nominal) : 0;
+    l.diffusion = c->diffusion && c->delta > 0 ? diffusion_number(c) * h / (c->delta * nominal) : 0;
     return l;
 }

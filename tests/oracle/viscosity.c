@@ -2,12 +2,14 @@
 /* viscosity.c: with mu = v_ij . x_ij/(r^2 + 0.01 h^2), means of i and j for c (c0) and rho:
      artificial   dv_i = -sum m_j Pi grad W, Pi = -(h/rho)(alpha c + beta h |mu|) mu          (Gray 2001 eq 2.18)
      approaching  the same where mu < 0, else 0                                (Wickramarachchi 2009 eq 3.18)
-     Morris       dv_i = sum m_j 4 nu/(rho_i + rho_j) (x_ij . grad W)/r^2 v_ij                (Morris, Fox & Zhu 1997,
-                  without the 0.01 h^2 beside r^2, which makes it some per cent too weak)
+     Morris       dv_i = sum m_j 4 nu/(rho_i + rho_j) (x_ij . grad W)/(r^2 + eta) v_ij        (Morris, Fox & Zhu 1997)
+                  eta only keeps it finite: 1e-6 h^2 (with 0.01 h^2 it would be some per cent too weak)
    Walls: with free slip none. GHOST: v_ij times beta = min(1.5, 1 + depth/distance), depth and distance of ghost and
    body from the wall's face (Gray 2.42, 2.43). ADAMI: v_i - v_w with the extrapolated v_w.
    It takes energy by its work on the relative velocity. */
 #include "oracle.h"
+
+#define MORRIS_SOFTENING 1e-6
 
 /* the relative velocity that viscosity sees */
 static bool relative(const o_scene *s, const o_particle *i, const o_particle *j, const o_pair *p, double *v)
@@ -49,10 +51,11 @@ void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p
     i->mu = o_max(i->mu, fabs(mu));
     o_gradient_vector(s, i, j, p, k, &stretch);
     if (s->cfg.viscosity == SPH_MORRIS) {
-        const double c = m * 2 * s->cfg.nu / rho * p->g;
+        const double c = m * 2 * s->cfg.nu / rho * p->g * p->r * p->r / (p->r * p->r + MORRIS_SOFTENING * h * h);
         for (int b = 0; b < 3; b++)
             a[b] = c * v[b];
-        scale = m * 2 * s->cfg.nu / rho * (p->slope / o_max(p->r, 0.01 * h)) * sqrt(o_dot(v, v));
+        const double soft = MORRIS_SOFTENING * h * h, near = soft / (p->r * p->r + soft) * h / o_max(p->r, 1e-4 * h);
+        scale = m * 2 * s->cfg.nu / rho * (p->slope / o_max(p->r, 0.01 * h)) * sqrt(o_dot(v, v)) * (1 + near);
     } else {
         const double c = o_is_ghost(s, j) ? i->c : 0.5 * (i->c + j->c); /* a wall has no sound of its own */
         const double strength = h / rho * (s->cfg.alpha * c + s->cfg.beta * h * fabs(mu));
