@@ -2,7 +2,7 @@
 /* arithmetic.h: whether compiler and machine do the arithmetic that the rule of same bits needs. What a compiler says
    of itself is an error when an object is compiled (here and in lanes.h); what it does not say, each object shows when
    a simulation is made: SPH_OBJECT leaves a record in it with its knobs and a function that computes a few sums.
-   Without knob OBJECT_PROBES only arithmetic.c looks. */
+   Without knob OBJECT_PROBES (off by default where code is to be small: -Os) only arithmetic.c looks. */
 #ifndef SPH_ARITHMETIC_H
 #define SPH_ARITHMETIC_H
 

@@ -170,7 +170,11 @@
 #define SPH_WITH_BOOKS SPH_WITH_ALL
 #endif
 #ifndef SPH_WITH_OBJECT_PROBES
+#ifdef __OPTIMIZE_SIZE__ /* 0.4 KB an object */
+#define SPH_WITH_OBJECT_PROBES 0
+#else
 #define SPH_WITH_OBJECT_PROBES SPH_WITH_ALL
+#endif
 #endif
 #ifndef SPH_WITH_DETAILS
 #define SPH_WITH_DETAILS SPH_WITH_ALL

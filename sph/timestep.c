@@ -21,6 +21,8 @@ static double sound_of(const sph_sim *sim, const sph_set *set)
    diffusion are made */
 static double fastest_sound(const sph_sim *sim, bool nominal)
 {
+    if (!SPH_WITH_SEVERAL_FLUIDS && !SPH_WITH_SOLID && !SPH_WITH_TAIT_GRAY)
+        return sim->cfg.sound_speed;
     /* before there are sets; and bodies in contact push each other by the configuration's */
     double c = !SPH_WITH_SEVERAL_FLUIDS || sim->sets == 0 || sph_is_total(&sim->cfg) ? sim->cfg.sound_speed : 0;
     if (!SPH_WITH_SEVERAL_FLUIDS && !SPH_WITH_SOLID && !SPH_WITH_TAIT_GRAY)

@@ -19,6 +19,7 @@ HOST = "host"
 # ("pass", field) or ("sweep", field) of the tables in the source, names of functions, or HOST
 CALLS = [
     (r"->run\(", [("pass", 2)]),
+    (r"->probe\(", [HOST]),  # asks for some bytes; at init only
     (r"->chunks\(", [("pass", 1)]),
     (r"->end\(", [("pass", 3)]),
     (r"->wanted\(", [("pass", 4)]),
