@@ -444,20 +444,22 @@ static void factors_of(const sph_sim *sim, const sph_thread *t, uint32_t h, bool
    not used. */
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    sph_choice bodies = choice_of(sim, role == SPH_ROLE_GHOST);
+    sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
+    const uint8_t diffusion = c.diffusion;
     const sph_factors *f = &sim->fac;
     sph_factors own;
-    bodies.apart = SPH_HAS_APART && kept_apart(sim);
-    fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&bodies);
-    const bool ghosts = role == SPH_ROLE_FLUID && sph_diffusive(bodies.diffusion); /* left over by a fast path */
+    c.apart = SPH_HAS_APART && kept_apart(sim);
+    fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&c);
+    /* left over by a fast path */
+    const bool ghosts = SPH_WITH_WALL_GHOST && role == SPH_ROLE_FLUID && sph_diffusive(diffusion);
     if (fast)
         fast(sim, t, homes);
     for (uint32_t h = 0; h < homes && (!fast || ghosts); h++) {
         const bool body = sph_is_body(&sim->set[t->home_set[h]]);
         if (body ? fast != NULL : role != SPH_ROLE_FLUID)
             continue;
-        sph_choice c = bodies;
-        c.diffusion = body ? c.diffusion : SPH_NO_DIFFUSION; /* density does not diffuse into walls */
+        if (SPH_WITH_WALL_GHOST)
+            c.diffusion = body ? diffusion : (uint8_t)SPH_NO_DIFFUSION; /* density does not diffuse into walls */
         if (SPH_HAS_APART && c.apart && role != SPH_ROLE_FORCE_WALL) {
             factors_of(sim, t, h, role == SPH_ROLE_GHOST, &own);
             f = &own;
