@@ -226,6 +226,8 @@ builds_test_grid    := $(BUILDS)
 builds_test_oracle  := $(BUILDS)
 builds_test_inspect := 1f 2f 2d 3f
 builds_test_probes  := $(BUILDS)
+# of those that a test lists `make test` takes these: each dimension and precision is met; all: TEST_BUILDS="$(BUILDS)"
+TEST_BUILDS ?= 1d 2f 2d 3f
 builds_of = $(or $(builds_$(1)),2f 2d)
 # the stability atlas (tests/lab): one program of parts from several builds
 atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension atlas_sponge box) \
@@ -233,7 +235,7 @@ atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_ten
 	$(patsubst %,2f/tests/lab/%,atlas_walls box precision_run) $(patsubst %,tests/lab/%,atlas_names atlas_precision) \
 	tools/dispersion)
 atlas_libs := $(BUILD)/libsph1d.a $(BUILD)/libsph2f.a
-test_bins := $(foreach t,$(TESTS),$(foreach b,$(call builds_of,$(t)),$(BUILD)/tests/$(t)_$(b)))
+test_bins := $(foreach t,$(TESTS),$(foreach b,$(filter $(TEST_BUILDS),$(call builds_of,$(t))),$(BUILD)/tests/$(t)_$(b)))
 
 command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o),$(tools_obj)) $(tables_obj)
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
@@ -510,7 +512,7 @@ help:
 	@printf '%s\n' \
 	'make            the tool $(BUILD)/sph and the libraries $(BUILD)/libsph{1,2,3}{f,d}.a' \
 	'make demo       a 2-D dam break: picture, dump and history (a C compiler and make are enough)' \
-	'make test       the quick tests (needs cmocka; gets it with apt-get as root)' \
+	'make test       the quick tests (needs cmocka; gets it with apt-get as root); TEST_BUILDS="1f 3d": of these builds' \
 	'make tool-test  the program $(BUILD)/sph alone, as its users meet it' \
 	'make bits       the golden runs by many compilers, levels and vector widths against tests/golden.csv' \
 	'make knobs      every build knob off alone and in random sets: golden or refused -> $(BUILD)/knobs.csv' \

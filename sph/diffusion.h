@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* diffusion.h: density diffusion (Molteni & Colagrossi 2009; Fourtakas et al. 2019), between bodies only:
      drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + eta)
-   with eta 0.01 h^2 and rho_H the difference that gravity makes between the two places (HYDROSTATIC), or 0. An image has
-   the density of its original: rho_H is that of the original's place (forces.c, factors_of). Only within one material. */
+   with eta 0.01 h^2 and rho_H the difference that gravity makes between the two places (HYDROSTATIC), or 0. An image
+   has the density of its original: rho_H is that of the original's place (forces.c, factors_of). Only within one
+   material. */
 #ifndef SPH_DIFFUSION_H
 #define SPH_DIFFUSION_H
 

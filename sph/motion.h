@@ -40,8 +40,8 @@ SPH_INLINE sph_real sph_rounding(const sph_sim *sim)
     return (sph_real)(walk >> 8) * (sph_real)5.9604644775390625e-8; /* 2^-24 */
 }
 
-/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho, and + foresight
-   rise in the predictor-corrector; part: see sph_rounding */
+/* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho, and +
+   foresight rise in the predictor-corrector; part: see sph_rounding */
 typedef struct sph_move {
     sph_real drift, bend, kick, rate, foresight, damping, part;
 } sph_move;

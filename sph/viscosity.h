@@ -3,8 +3,8 @@
 
      artificial   a_i -= m_j Pi grad W,  Pi = -(h/rho_mean)(alpha c0 + beta h |mu|) mu    (Gray 2001 eq 2.18)
      approaching  the same, on approaching pairs only                                     (Wickramarachchi 2009 eq 3.18)
-     Morris       a_i += m_j 4 nu/(rho_i + rho_j) (g r^2)/(r^2 + 1e-6 h^2) v_ij            (Morris, Fox & Zhu 1997, whose
-                  0.01 h^2 would make it 1 to 5 % too weak, at every resolution alike)
+     Morris       a_i += m_j 4 nu/(rho_i + rho_j) (g r^2)/(r^2 + 1e-6 h^2) v_ij            (Morris, Fox & Zhu 1997;
+                  his 0.01 h^2 would make it 1 to 5 % too weak, at every resolution alike)
 
    With a ghost wall the velocity is mirrored: v_ij is multiplied by beta = 1 + min(depth/distance, 1/2) (Gray 2.42,
    2.43). */

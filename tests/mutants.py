@@ -117,6 +117,10 @@ def run(cmd, cwd, seconds, env=None):
         return 124, "hangs"
 
 
+def shell(cmd, cwd):
+    return subprocess.run(cmd, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout.decode()
+
+
 def copy_tree(to):
     shutil.rmtree(to, ignore_errors=True)
     os.makedirs(to)
@@ -126,7 +130,7 @@ def copy_tree(to):
 
 def programs(tree):
     """the test programs, as the Makefile names them"""
-    text = subprocess.run(["make", "-pn", "tests"], cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout.decode()
+    text = shell(["make", "-pn", "tests"], tree)
     found = re.findall(r"^build/tests/(test_\w+_[123][fd]):", text, flags=re.M)
     if not found:
         sys.exit("mutants.py: the Makefile names no test program")
@@ -136,7 +140,7 @@ def programs(tree):
 def survey(tree):
     """seconds of each test program, and the lines of sph/ that each runs; kept in WORK/survey.json"""
     at = os.path.join(WORK, "survey.json")
-    stamp = subprocess.run("cat sph/*.[ch] tests/*.[ch] Makefile | cksum", shell=True, stdout=subprocess.PIPE).stdout.decode()
+    stamp = shell(["sh", "-c", "cat sph/*.[ch] tests/*.[ch] Makefile | cksum"], ".")
     if os.path.exists(at):
         kept = json.load(open(at))
         if kept["stamp"] == stamp:
@@ -193,7 +197,8 @@ class Worker(threading.Thread):
                     self.done["count"] += 1
                 with open(self.out, "a", newline="") as f:
                     csv.writer(f).writerow(list(m) + [verdict, by])
-                print("  %4d %-9s %-22s %s:%d %s: %s -> %s" % (self.done["count"], verdict, by, m[0], m[1], m[3], m[4][:40], m[5][:40]), flush=True)
+                print("  %4d %-9s %-22s %s:%d %s: %s -> %s" %
+                      (self.done["count"], verdict, by, m[0], m[1], m[3], m[4][:40], m[5][:40]), flush=True)
 
     def sums(self):
         out = {}
@@ -277,8 +282,9 @@ def main():
     with open(os.path.join(os.environ.get("BUILD", "build"), "mutants.csv"), "w", newline="") as f:
         w = csv.writer(f)
         w.writerow(["name", "value", "unit", "target", "ok"])
-        w.writerow(["mutants", real + n["equal"], "changes", ">=%d" % a.count, "yes" if real + n["equal"] >= a.count else "no"])
-        w.writerow(["killed", "%.1f" % rate, "% of those not equal", ">=%g" % TARGET, "yes" if rate >= TARGET else "no"])
+        enough, killed = real + n["equal"] >= a.count, rate >= TARGET
+        w.writerow(["mutants", real + n["equal"], "changes", ">=%d" % a.count, "yes" if enough else "no"])
+        w.writerow(["killed", "%.1f" % rate, "% of those not equal", ">=%g" % TARGET, "yes" if killed else "no"])
         for v in ("killed", "survived", "equal", "invalid"):
             w.writerow([v + "_count", n[v], "changes", "", ""])
     for r in rows:

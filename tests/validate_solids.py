@@ -52,7 +52,8 @@ def plates(quick, add):
         add(f"G15 H 2 mu 0.22 n={n} clamp {clamp} period against finite elements", "%", None, [run],
             lambda r, k=kind: 100 * abs(period(r) / float(fe[2.0, 0.22][k]) - 1))
     off = lambda r: 100 * abs(period(r) / float(fe[2.0, 0.22]["T_A"]) - 1)
-    free = {size: Run("plate", speed=0.001, n=size, cycles=0.6, every=10) for size in ((6, 10) if quick else (6, 10, 20))}
+    sizes = (6, 10) if quick else (6, 10, 20)
+    free = {size: Run("plate", speed=0.001, n=size, cycles=0.6, every=10) for size in sizes}
     for size, run in free.items():
         add(f"G15 H 2 mu 0.22 n={size} period against finite elements", "%", {10: 0.9, 20: 0.25}.get(size), [run], off)
     coarse, fine = sorted(free)[-2:]

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* channel.c: a viscous fluid between two plates, started from rest (Morris, Fox & Zhu 1997, section 4): Poiseuille's flow
-   under a body force along the channel, Couette's under a plate that slides, or both. With y in heights H from the
+/* channel.c: a viscous fluid between two plates, started from rest (Morris, Fox & Zhu 1997, section 4): Poiseuille's
+   flow under a body force along the channel, Couette's under a plate that slides, or both. With y in heights H from the
    lower plate, t in H^2/nu, speed U of the plate or at the middle of the steady flow:
      Poiseuille  u/U = 4 y (1 - y) - sum_{n odd} 32/(n pi)^3 sin(n pi y) exp(-(n pi)^2 t)
      Couette     u/U = y + sum_n 2 (-1)^n/(n pi) sin(n pi y) exp(-(n pi)^2 t)

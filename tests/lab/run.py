@@ -3,7 +3,7 @@
 """run.py: makes the lab's runs and writes a table for each study.
 
 usage: run.py [--jobs N] [--studies A,B] [--smoke] [--tool build/lab/sph] [--counter build/sph] [--valgrind valgrind]
-[--list]
+[--list] [--most SECONDS]
 
 Each row of tests/lab/STUDY.csv is one command of the tool. Runs are kept in build/lab and made again only if their
 command, the golden hashes or the scene's source changed, so that an interrupted call goes on where it was. Tables hold
@@ -11,6 +11,7 @@ no seconds: those go into seconds.csv, as multiples of the calibration loop that
 are counted by callgrind in the default build over a few steps at the study's coarsest size, and taken times the
 particle-steps of the run.
 --smoke: a few coarse rows of each study, compared with the committed tables; nothing is written there.
+--most: only the rows of --smoke and those whose run took less by seconds.csv; tables then hold no others and say so.
 """
 import argparse, csv, glob, hashlib, io, os, re, shutil, subprocess, sys, time
 from concurrent.futures import ThreadPoolExecutor
@@ -173,13 +174,25 @@ def read_callgrind(path):
 
 # ---- tables ----
 
+LEFT_OUT = {}
+
+
+def seconds_of_rows():
+    """What runs took when they were last made."""
+    with open(os.path.join(HERE, "seconds.csv")) as f:
+        rows = [r for r in csv.reader(line for line in f if not line.startswith("#"))][1:]
+    return {(r[0], r[1], r[2]): float(r[3]) for r in rows}
+
+
 def table(study, rows, counts):
     out = io.StringIO()
     out.write("# SPDX-License-Identifier: MIT. Copyright the sph authors.\n")
     for name, value in (("study", study.name), ("title", study.title), ("scene", study.scene), ("norm", study.norm),
                         ("reference", study.reference),
                         ("unit", study.unit), ("resolution", study.resolution), ("defaults", defaults(study)),
-                        ("command", f"make lab STUDIES={study.name}")):
+                        ("command", f"make lab STUDIES={study.name}"), ("left out", LEFT_OUT.get(study.name, ""))):
+        if name == "left out" and not value:
+            continue
         out.write(f"# {name}: {value}\n")
     w = csv.writer(out, lineterminator="\n")
     w.writerow(COLUMNS)
@@ -246,6 +259,7 @@ def main():
     p.add_argument("--counter", default=os.path.join("build", "sph"), help="instructions are counted in this one")
     p.add_argument("--valgrind", default="valgrind")
     p.add_argument("--list", action="store_true", help="print the commands and end")
+    p.add_argument("--most", type=float, default=0, help="seconds; dearer rows are left out of the tables")
     args = p.parse_args()
     wanted = [w for w in args.studies.replace(",", " ").split() if w]
     known = [s.name for s in STUDIES]
@@ -260,6 +274,14 @@ def main():
     rows = {s.name: rows_of(s) for s in studies}
     if args.smoke:
         rows = {s.name: smoke_rows(s, rows[s.name]) for s in studies}
+    if args.most > 0:
+        known_seconds = seconds_of_rows()
+        for s in studies:
+            few = {r.name for r in smoke_rows(s, rows[s.name])}
+            every = len(rows[s.name])
+            rows[s.name] = [r for r in rows[s.name]
+                            if r.name in few or known_seconds.get((r.scene, r.precision, r.given), 0) < args.most]
+            LEFT_OUT[s.name] = f"{every - len(rows[s.name])} dearer rows, of --most {args.most:g}; make lab makes all"
     if args.list:
         for s in studies:
             for r in rows[s.name]:

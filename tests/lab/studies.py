@@ -198,7 +198,8 @@ channel = Study(
     "channel", "flow between two plates, Re 1 (B10)", "channel", "rms error of the velocity after H^2/nu",
     "% of the speed", "series of Poiseuille's and Couette's flow from rest (Morris, Fox & Zhu 1997)", channel_error,
     "n, particles between the plates", [10, 20, 40],
-    {"default": {}, "Couette": dict(flow="couette"), "Re 10": dict(re=10), "together, Re 10": dict(flow="together", re=10),
+    {"default": {}, "Couette": dict(flow="couette"), "Re 10": dict(re=10),
+     "together, Re 10": dict(flow="together", re=10),
      "quintic h 1.5": dict(kernel="quintic", h=1.5), "cubic h 1.3": dict(kernel="cubic", h=1.3),
      "h 1.5": dict(h=1.5), "h 1.2": dict(h=1.2), "weak scheme": dict(scheme="weak"),
      "ghost": dict(wall="ghost"), "predictor-corrector": PC},
@@ -337,5 +338,6 @@ hole = Study(
     h={"corrected": ({}, [1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0])},
     courant=by_integrator({}, 1.0), step=lambda n, h: h * 7 / n)
 
-STUDIES = [hydrostatic, still_tank, dam_break, taylor_green, channel, standing_wave, elliptical_drop, pulse, pulse_amplitude,
+STUDIES = [hydrostatic, still_tank, dam_break, taylor_green, channel, standing_wave, elliptical_drop, pulse,
+           pulse_amplitude,
            rings, plate, hole]

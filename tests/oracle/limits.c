@@ -3,9 +3,9 @@
      courant    cfl h/(c + h max|mu|)       c: the fastest sound of any set; of solids with 4 mu/3 rho0 (Gray 5.52)
      viscous    viscous_factor h^2/nu       nu of Morris, or alpha c0 h/(2 (DIM + 2)) of the artificial viscosity
      force      force_factor sqrt(h/max|a|) gravity  gravity_factor h/(c + sqrt(g h))
-     diffusion  f h/(delta c0)              c0: the fastest of the bodies' sets, as both are made with it; f: 7/8 of what
-                the integrator stands (sph/factors.c): 1/8 (Wendland C4: 0.095), twice that in Runge-Kutta, half of it
-                in the predictor-corrector of fluids
+     diffusion  f h/(delta c0)              c0: the fastest of the bodies' sets, as both are made with it; f: 7/8 of
+                what the integrator stands (sph/factors.c): 1/8 (Wendland C4: 0.095), twice that in Runge-Kutta, half of
+                it in the predictor-corrector of fluids
    In the total form the configuration's sound speed counts too: contact pushes with it.
    The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25; beside
    solids 0.22 times the cube root of (delta + nu/(h c) or alpha/8)/(0.01/8), times 0.75 (updated) or 0.42, but 0.05 at
