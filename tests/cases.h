@@ -126,7 +126,7 @@ enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 #define CASE_STEPS (SPH_DIM == 3 ? 6u : 12u)
 #define CASE_DX 0.1
 /* enough for any case: asserted by the runners through the status of sph_init */
-#define CASE_ARENA_BYTES (SPH_DIM == 3 ? 3u << 20 : 7u << 18)
+#define CASE_ARENA_BYTES (SPH_DIM == 3 ? 7u << 19 : 7u << 18)
 
 static __attribute__((unused)) void case_motion(void *ctx, double t, double *x, double *v)
 {
