@@ -121,9 +121,16 @@ void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row)
             t[k] = -(s[sph_sym[k / SPH_DIM][k % SPH_DIM]] * w);
         if (corrects)
             corrected_stress(r, i, rho, s, t);
-        SPH_UNROLL_MANY
-        for (uint32_t k = 0; k < SPH_NL; k++)
-            v_store(to + k * row + j, (corrects ? sph_seen_mixed : sph_seen_stress)(r, k / SPH_DIM, k % SPH_DIM, t[k]));
+        if (!SPH_HAS_IMAGES || !r->im->is_image) {
+            SPH_UNROLL_MANY
+            for (uint32_t k = 0; k < SPH_NL; k++)
+                v_store(to + k * row + j, t[k]);
+            continue;
+        }
+        for (uint32_t k = 0; k < SPH_NL; k++) {
+            const uint32_t a = k / SPH_DIM, b = k % SPH_DIM;
+            v_store(to + k * row + j, corrects ? sph_seen_mixed(r, a, b, t[k]) : sph_seen_stress(r, a, b, t[k]));
+        }
     }
 }
 

@@ -101,28 +101,30 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
     load_columns(r, t, COPIED, own);
 }
 
-/* Tait's water in a standard scheme, or rates in one, in the middle of a step; no image: the same text with the choices
-   as constants; a line adds a path */
+/* Tait's water in a standard scheme, solids with the linear equation of state, or rates in a standard scheme, in the
+   middle of a step; no image: the same text with the choices as constants; a line adds a path */
 #define SPH_FAST_LOADS(X)                                                                                          \
-    X(plain, false, false, true, false, COPIED)                                                                    \
-    X(plain_homes, false, false, true, false, COPIED_HOMES)                                                        \
-    X(floor, true, false, true, false, COPIED)                                                                     \
-    X(floor_homes, true, false, true, false, COPIED_HOMES)                                                         \
-    X(diffusive, true, true, true, false, COPIED)                                                                  \
-    X(diffusive_homes, true, true, true, false, COPIED_HOMES)                                                      \
-    X(wall, false, false, true, SPH_HAS_LAYERED_WALLS, COPIED)                                                     \
-    X(wall_floor, true, false, true, SPH_HAS_LAYERED_WALLS, COPIED)                                                \
-    X(wall_diffusive, true, true, true, SPH_HAS_LAYERED_WALLS, COPIED)                                             \
-    X(rates, false, false, false, false, COPIED)                                                                   \
-    X(rates_homes, false, false, false, false, COPIED_HOMES)                                                       \
-    X(rates_diffusive, false, true, false, false, COPIED)                                                          \
-    X(rates_diffusive_homes, false, true, false, false, COPIED_HOMES)                                              \
-    X(rates_wall, false, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                              \
-    X(rates_wall_diffusive, false, true, false, SPH_HAS_LAYERED_WALLS, COPIED)
-#define SPH_FAST_FN(name, floor_, inv_rho_, press_, wall_, copied)                                                 \
+    X(plain, TAIT, false, false, true, false, COPIED)                                                              \
+    X(plain_homes, TAIT, false, false, true, false, COPIED_HOMES)                                                  \
+    X(floor, TAIT, true, false, true, false, COPIED)                                                               \
+    X(floor_homes, TAIT, true, false, true, false, COPIED_HOMES)                                                   \
+    X(diffusive, TAIT, true, true, true, false, COPIED)                                                            \
+    X(diffusive_homes, TAIT, true, true, true, false, COPIED_HOMES)                                                \
+    X(wall, TAIT, false, false, true, SPH_HAS_LAYERED_WALLS, COPIED)                                               \
+    X(wall_floor, TAIT, true, false, true, SPH_HAS_LAYERED_WALLS, COPIED)                                          \
+    X(wall_diffusive, TAIT, true, true, true, SPH_HAS_LAYERED_WALLS, COPIED)                                       \
+    X(linear, LINEAR, false, false, true, false, COPIED)                                                           \
+    X(linear_homes, LINEAR, false, false, true, false, COPIED_HOMES)                                               \
+    X(rates, TAIT, false, false, false, false, COPIED)                                                             \
+    X(rates_homes, TAIT, false, false, false, false, COPIED_HOMES)                                                 \
+    X(rates_diffusive, TAIT, false, true, false, false, COPIED)                                                    \
+    X(rates_diffusive_homes, TAIT, false, true, false, false, COPIED_HOMES)                                        \
+    X(rates_wall, TAIT, false, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                        \
+    X(rates_wall_diffusive, TAIT, false, true, false, SPH_HAS_LAYERED_WALLS, COPIED)
+#define SPH_FAST_FN(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                           \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t)                                               \
     {                                                                                                              \
-        const tile_choice own = {SPH_TAIT, true, floor_, inv_rho_, press_, !(press_), wall_, false, false};        \
+        const tile_choice own = {SPH_##eos_, true, floor_, inv_rho_, press_, !(press_), wall_, false, false};      \
         load_columns(r, t, copied, own);                                                                           \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
@@ -134,13 +136,14 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, bool inv_rho, bool home
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, press = needs_press(r->sim);
     const bool floor = press && c->pressure_floor && !sph_is_solid(r->set);
     const uint32_t copied = homes ? COPIED_HOMES : COPIED;
-    const bool water = SPH_IS(r->set->eos, TAIT) && SPH_IS(c->scheme, STANDARD);
-    const bool usual = SPH_WITH_FAST_PATHS && (water || !press) && !r->im->is_image &&
+    /* of rates the equation of state does not matter */
+    const uint32_t eos = press ? r->set->eos : SPH_TAIT;
+    const bool usual = SPH_WITH_FAST_PATHS && (SPH_IS(c->scheme, STANDARD) || !press) && !r->im->is_image &&
                        !drifts_beside(r, wall);
     (void)copied;
-#define SPH_FAST_TRY(name, floor_, inv_rho_, press_, wall_, copied_)                                               \
-    if (usual && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) && wall == (wall_) &&             \
-        copied == (copied_)) {                                                                                     \
+#define SPH_FAST_TRY(name, eos_, floor_, inv_rho_, press_, wall_, copied_)                                         \
+    if (usual && eos == SPH_##eos_ && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) &&           \
+        wall == (wall_) && copied == (copied_)) {                                                                  \
         load_##name(r, t);                                                                                         \
         return;                                                                                                    \
     }
