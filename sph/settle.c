@@ -35,11 +35,12 @@ void sph_settle(const sph_sim *sim, sph_span s)
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(b->set[0], i, s.last);
         const uint8_t set = b->set[0][i];
-        if (set == SPH_DEAD || sph_is_body(&sim->set[set]))
+        const bool gone = set == SPH_DEAD; /* among them walls, that were in no sums */
+        if (!gone && sph_is_body(&sim->set[set]))
             continue;
         n = n ? n : find_summed(b, summed);
         for (uint32_t k = 0; k < n; k++) /* walls that are compressible have a rate of density, and its rise */
-            if (!sph_is_compressible(&sim->set[set]) || (summed[k] != b->drho[0] && summed[k] != b->rise[0]))
+            if (gone || !sph_is_compressible(&sim->set[set]) || (summed[k] != b->drho[0] && summed[k] != b->rise[0]))
                 memset(summed[k] + i, 0, (e - i) * sizeof(sph_real));
     }
 }

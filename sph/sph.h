@@ -58,8 +58,7 @@ typedef float sph_real;
     X(BAD_STATE, "the call is not allowed at this moment (a step is under way, or nothing was added)") \
     X(ARENA_TOO_SMALL, "the arena is too small; the bytes needed are in the report")                   \
     X(ARENA_UNALIGNED, "the arena is not aligned to SPH_ALIGN bytes")                                  \
-    X(ARITHMETIC, "this build or machine does not do the IEEE 754 arithmetic the kernel relies on, or one of its " \
-                  "objects was built unlike the others")                                               \
+    X(ARITHMETIC, "this build or machine does not do IEEE 754 arithmetic, or an object is unlike others") \
     X(TOO_MANY_PARTICLES, "the particle capacity is exhausted")                                        \
     X(TOO_MANY_SETS, "the capacity for particle sets or wall groups is exhausted")                     \
     X(TOO_MANY_FLAWS, "the capacity for flaws is exhausted")                                           \
