@@ -421,9 +421,11 @@ static uint8_t kept_apart(const sph_sim *sim)
    speeds (walls: the home's), diffusion with that of the one material that it acts in. Where an image shows what stands
    in truth at S - x' (home cell's coordinates), the difference that gravity makes is of x_i - (S - x') =
    -(x_i - x') + 2 x_i - S. */
-static void factors_of(const sph_sim *sim, const sph_thread *t, uint32_t h, bool ghosts, sph_factors *f)
+#if SPH_HAS_APART
+static const sph_factors *factors_of(const sph_sim *sim, sph_thread *t, uint32_t h, bool ghosts)
 {
     const sph_config *c = &sim->cfg;
+    sph_factors *const f = &t->factors;
     const sph_set *i = &sim->set[t->home_set[h]], *j = ghosts ? i : t->of;
     const double c2 = i->c0 * i->c0 * (SPH_IS(i->eos, TAIT_GRAY) ? 7 : 1);
     *f = sim->fac;
@@ -438,7 +440,11 @@ static void factors_of(const sph_sim *sim, const sph_thread *t, uint32_t h, bool
             f->hydro_offset += (sph_real)(slope * (2 * (double)t->home.x[k][h] -
                                                    (double)(t->seen.shift[k] - 2 * t->origin[k]) * sim->grid.quantum));
     }
+    return f;
 }
+#else
+#define factors_of(sim, t, h, ghosts) (&(sim)->fac)
+#endif
 
 /* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over bodies only; its acceleration is
    not used. */
@@ -447,7 +453,6 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
     sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
     const uint8_t diffusion = c.diffusion;
     const sph_factors *f = &sim->fac;
-    sph_factors own;
     c.apart = SPH_HAS_APART && kept_apart(sim);
     fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&c);
     /* left over by a fast path */
@@ -460,10 +465,8 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
             continue;
         if (SPH_WITH_WALL_GHOST)
             c.diffusion = body ? diffusion : (uint8_t)SPH_NO_DIFFUSION; /* density does not diffuse into walls */
-        if (SPH_HAS_APART && c.apart && role != SPH_ROLE_FORCE_WALL) {
-            factors_of(sim, t, h, role == SPH_ROLE_GHOST, &own);
-            f = &own;
-        }
+        if (c.apart && role != SPH_ROLE_FORCE_WALL)
+            f = factors_of(sim, t, h, role == SPH_ROLE_GHOST);
         if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
             sph_boundary_force(sim, t, h);
         else if (SPH_WITH_BOOKS && !SPH_SMALL && c.loses)

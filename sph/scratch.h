@@ -67,6 +67,9 @@ typedef struct sph_thread {
             sph_image seen;
             sph_pos origin[SPH_DIM];
             sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */
+#if SPH_HAS_APART
+            sph_factors factors; /* of the pairs of a home and a tile of one kind (forces.c) */
+#endif
         };
         sph_block block;                /* the sort */
         sph_real aside[SPH_DIM][SPH_LOCAL_CHUNK]; /* ways of a chunk's particles that they have still to go, m */
