@@ -12,6 +12,7 @@ SPH_OBJECT(density)
 #if SPH_HAS_FILTERS
 enum { SUM_MW, SUM_VW };
 
+#if SPH_WITH_SUMMATION
 SPH_INLINE void density_pair(const void *what, uint32_t j, vreal *s)
 {
     const sph_gather *g = what;
@@ -26,7 +27,6 @@ static void density_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint
     sph_gather_tile(sim, t, sph_tile_of(t, role), homes, SPH_SUM_MASK(SUM_MW, 2), density_pair, NULL);
 }
 
-#if SPH_WITH_SUMMATION
 static void summation_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const sph_real rho0 = sim->set[t->home_set[h]].rho0_r;
