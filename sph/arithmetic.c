@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* arithmetic.c: finds contraction, excess precision and flush to zero at run time. */
 #include "arithmetic.h"
+#include "lanes.h" /* refuses -ffast-math and excess precision where the compiler says so */
 #include "sph.h"
 
 #ifndef SPH_NO_PROBE /* only to show with tests/firstdiff.sh what a broken build does */

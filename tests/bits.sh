@@ -5,13 +5,14 @@
 #                                       unless said otherwise), which must be there
 #   sh tests/bits.sh --quick            the default compiler, with and without vector lanes; the first in BUILD itself
 #   sh tests/bits.sh --mint "reason"    rewrites tests/golden.csv, the reason in its header; all ways must agree first
-#   BUILDS="1f 2f"   these builds only      HALF=1   each way three of the six, the next way the other three (for CI)
+#   BUILDS="1f 2f"   these builds only      SHARE=3   each way two of the six, the next way the next two (for CI)
 #   READY="gcc-O2=build"   ways that are built already, and where      KEEP=1   what was built stays
 set -u
 BUILD=${BUILD:-build} GCC=${GCC:-gcc} CLANG=${CLANG:-clang} CC=${CC:-cc} MAKE=${MAKE:-make}
 JOBS=${JOBS:-$(nproc 2>/dev/null || echo 2)} COMPILERS=${COMPILERS:-gcc clang}
 golden=tests/golden.csv dir=$BUILD/bits all="1f 1d 2f 2d 3f 3d"
 mode=${1:-all} reason=${2:-}
+. tests/shares.sh
 mkdir -p "$dir"
 if [ "$mode" = --mint ] && [ -z "$reason" ]; then
     echo "bits.sh: --mint needs a reason, in quotes: it goes into the header of $golden" >&2
@@ -67,9 +68,8 @@ END
 }
 
 # the builds of way number $1, called $2
-half_of() {
-    [ "${HALF:-0}" = 1 ] && [ "$(place_of "$2")" = "$dir/$2" ] || { echo "${BUILDS:-$all}"; return; }
-    [ $(($1 % 2)) = 0 ] && echo "1f 2d 3f" || echo "1d 2f 3d"
+builds_of_way() {
+    if [ "$(place_of "$2")" = "$dir/$2" ]; then share_of "$1" ${BUILDS:-$all}; else echo "${BUILDS:-$all}"; fi
 }
 
 # compares $dir/NAME.csv with the rows of $2 of its builds
@@ -89,7 +89,7 @@ for c in $COMPILERS; do
     [ "$mode" = --quick ] || command -v "$cc" >/dev/null 2>&1 ||
         { echo "bits.sh: no $cc; as root: apt-get install $c; or leave it out by name: COMPILERS=..." >&2; exit 1; }
 done
-if [ "$mode" = --mint ]; then BUILDS=$all HALF=0; fi
+if [ "$mode" = --mint ]; then BUILDS=$all SHARE=1; fi
 for b in ${BUILDS:-$all}; do
     case " $all " in *" $b "*) ;; *) echo "bits.sh: BUILDS has '$b'; allowed are $all" >&2; exit 2 ;; esac
 done
@@ -99,7 +99,7 @@ list=$(ways | {
     while read -r w; do
         [ "${w%%-*}" = "$last" ] || from=$((from + 1)) k=$from last=${w%%-*}
         k=$((k + 1))
-        echo "$w|$(half_of $k "${w%%|*}")"
+        echo "$w|$(builds_of_way $k "${w%%|*}")"
     done
 })
 bad=0 n=0 first=

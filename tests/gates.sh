@@ -142,7 +142,7 @@ mend() {
     : >"$touched"
 }
 # command: runs it in the copy, with a BUILD of its own
-go() { (cd "$tree" && BUILD=build READY='' HALF=0 timeout "$LIMIT" sh -c "$1" 2>&1); }
+go() { (cd "$tree" && BUILD=build READY='' SHARE=1 timeout "$LIMIT" sh -c "$1" 2>&1); }
 
 wanted() { # kind name
     [ -z "$chosen" ] || { case " $chosen " in *" $2 "*) return 0 ;; *) return 1 ;; esac; }

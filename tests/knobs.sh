@@ -5,7 +5,9 @@
 # its golden hash. One case that every build has (tests/knobs.c) must run in each and be the same in all. Prints what
 # each knob saves in code; writes BUILD/knobs.csv.
 #   sh tests/knobs.sh [random sets, default 12] [seed, default 1]     KNOBS="XSPH BOOKS"   of single knobs these only
+#   SHARE=4   every fourth single knob only (for CI; the random sets leave each out in about half of them)
 set -u
+. tests/shares.sh
 BUILD=${BUILD:-build} CC=${CC:-gcc} SIZE=${SIZE:-size} JOBS=${JOBS:-2} KNOB_BUILD=${KNOB_BUILD:-2f}
 BITS=${BITS:--std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math}
 sets=${1:-12} seed=${2:-1}
@@ -70,7 +72,7 @@ minimum=-DSPH_WITH_ALL=0
 for k in $always; do minimum="$minimum -DSPH_WITH_$k=1"; done
 list() {
     echo "everything|"
-    for k in ${KNOBS:-$(all_knobs)}; do echo "no_$k|-DSPH_WITH_$k=0"; done
+    for k in ${KNOBS:-$(share_of 0 $(all_knobs))}; do echo "no_$k|-DSPH_WITH_$k=0"; done
     echo "minimum|$minimum"
     all_knobs | awk -v sets="$sets" -v seed="$seed" -v always="$always" '
         {k[NR] = $1}

@@ -8,6 +8,7 @@ JOBS=${JOBS:-$(nproc 2>/dev/null || echo 2)}
 mkdir -p "$BUILD"
 inc="-I. -Isph -Iport -Iexamples -Iexamples/scenes -Itools -Itests"
 files=$(ls sph/*.c port/*.c examples/scenes/*.c tools/*.c 2>/dev/null)
+every=$(ls sph/*.c examples/scenes/*.c tools/build.c 2>/dev/null) # compiled for each build
 plane=$(ls examples/*.c examples/baremetal/*.c 2>/dev/null) # programs of the 2-D build
 metal=port/cortexm.c # for another processor
 bad=0
@@ -24,7 +25,7 @@ for b in "1 0" "2 0" "3 1"; do
 done
 # a program a file, as many at once as there are processors; each speaks only if it found something
 for b in "2 0" "3 1"; do
-    for f in $files $([ "${b% *}" = 2 ] && echo "$plane"); do
+    for f in $([ "${b% *}" = 2 ] && echo "$files $plane" || echo "$every"); do
         [ "$f" = $metal ] || echo "$f ${b% *} ${b#* }"
     done
 done | TIDY="$CLANG_TIDY" INC="$inc" xargs -P "$JOBS" -L 1 sh -c '

@@ -7,9 +7,10 @@
 #   sh tests/targets.sh --readme      the table of README.md, from BUILD/targets.csv
 #   FULL=1      slow machines run all cases too          STRICT=1   a machine without tools counts as a failure
 #   BUILDS="1f 2f"  these builds only                    JOBS=N     machines at once (default 2)
-#   HALF=1      three of the six builds on each machine, the other three on the next (for CI)
+#   SHARE=3     two of the six builds on each machine, the next two on the next (for CI)
 set -u
 . tests/machines.sh
+. tests/shares.sh
 JOBS=${JOBS:-2} FULL=${FULL:-0} STRICT=${STRICT:-0}
 golden=tests/golden.csv dir=$BUILD/targets
 builds=${BUILDS:-1f 1d 2f 2d 3f 3d}
@@ -57,9 +58,8 @@ one_machine() {
         return
     fi
     version=$(machine_version)
-    if [ "${HALF:-0}" = 1 ]; then
-        [ $(($(machine_names | grep -nxF "$1" | cut -d: -f1) % 2)) = 0 ] && builds="1f 2d 3f" || builds="1d 2f 3d"
-    fi
+    # shellcheck disable=SC2086
+    builds=$(share_of "$(machine_names | grep -nxF "$1" | cut -d: -f1)" $builds)
     for b in $builds; do
         one_build "$1" "$b" >>"$d/table"
     done
