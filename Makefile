@@ -80,7 +80,7 @@ scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-solids coverage lint help clean tests
-.PHONY: count house gates gates-quick
+.PHONY: count house gates gates-quick mutants
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
@@ -324,6 +324,12 @@ msan:
 knobs:
 	$(Q)BUILD=$(BUILD) CC="$(GCC)" BITS="$(BITS) -fexcess-precision=fast" SIZE="$(SIZE)" sh tests/knobs.sh
 
+# single changes of sph/ by a seed, each built and given to the tests: killed, survived, or the same object code. Goes on
+# where it stopped; MUTANTS are arguments of tests/mutants.py
+mutants:
+	$(Q)sh tests/need_cmocka.sh
+	$(Q)BUILD=$(BUILD) GCC="$(GCC)" $(PYTHON) tests/mutants.py --out tests/results/mutants.csv $(MUTANTS)
+
 # every gate must see what it guards against: it is broken in a copy of the tree
 gates:
 	$(Q)BUILD=$(BUILD) MAKE="$(MAKE)" PYTHON="$(PYTHON)" sh tests/gates.sh
@@ -434,5 +440,6 @@ help:
 	'make house      those rules alone: floors of files, lengths, words        -> $(BUILD)/house.csv' \
 	'make gates      does every gate see what it guards against?               -> $(BUILD)/gates.csv' \
 	'make gates-quick  those that take seconds' \
+	'make mutants    single changes of the kernel: does a test see each? (hours) -> tests/results/mutants.csv' \
 	'make clean      removes $(BUILD)' \
 	'Variables: CC OPT CFLAGS LDFLAGS AR SIZE NM GCC CLANG BUILD EXEC; V=1 shows every command.'
