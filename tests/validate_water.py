@@ -93,6 +93,14 @@ def cases(quick):
     add(f"B1 order of convergence n={ns[-2]}..{ns[-1]}", "-", None, [tg[ns[-2]], tg[ns[-1]]],
         lambda a, b: math.log2(abs(a.col("kinetic_J")[-1] / a.col("kinetic_exact")[-1] - 1) /
                                abs(b.col("kinetic_J")[-1] / b.col("kinetic_exact")[-1] - 1)))
+    # B10: Poiseuille's and Couette's flow between no-slip walls
+    for flow in ("poiseuille", "couette"):
+        ch = {n: Run("channel", n=n, flow=flow, frames=4) for n in (20, 40)}
+        for n, run in ch.items():
+            add(f"B10 {flow} n={n} velocity, rms", "% of the speed", 0.2 if n == 40 else None, [run],
+                lambda r: 100 * r.col("velocity_error_rms")[-1])
+        add(f"B10 {flow} order n=20..40", "-", None, [ch[20], ch[40]],
+            lambda a, b: math.log2(a.col("velocity_error_rms")[-1] / b.col("velocity_error_rms")[-1]))
     # B2: standing wave
     for n in (20, 40) if quick else (20, 40, 80):
         run = Run("standing_wave", n=n)

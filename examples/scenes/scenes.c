@@ -11,6 +11,7 @@
     X(still_tank)                                                                                           \
     X(standing_wave)                                                                                        \
     X(taylor_green)                                                                                         \
+    X(channel)                                                                                              \
     X(elliptical_drop)                                                                                      \
     X(plate)                                                                                                \
     X(pulse)                                                                                                \

@@ -93,6 +93,10 @@ def vortex_error(run):
     return 100 * max(abs(a / b - 1) for a, b in zip(run.col("kinetic_J"), run.col("kinetic_exact")))
 
 
+def channel_error(run):
+    return last(whole(run), "velocity_error_rms")
+
+
 def wave_error(run):
     y, e = whole(run).col("mode_m"), run.col("mode_linear")
     return 100 * math.sqrt(sum((a - b) ** 2 for a, b in zip(y, e)) / len(y)) / max(map(abs, e))
@@ -189,6 +193,17 @@ taylor_green = Study(
     h={"Wendland C2": ({}, [1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0]),
        "quintic": (dict(kernel="quintic"), [1.0, 1.2, 1.4, 1.6, 1.8, 2.0])},
     courant=by_integrator({}, 1.4), step=lambda n, h: h / n / 10)
+
+channel = Study(
+    "channel", "flow between two plates, Re 1 (B10)", "channel", "rms error of the velocity after H^2/nu",
+    "% of the speed", "series of Poiseuille's and Couette's flow from rest (Morris, Fox & Zhu 1997)", channel_error,
+    "n, particles between the plates", [10, 20, 40],
+    {"default": {}, "Couette": dict(flow="couette"), "Re 10": dict(re=10), "together, Re 10": dict(flow="together", re=10),
+     "quintic h 1.5": dict(kernel="quintic", h=1.5), "cubic h 1.3": dict(kernel="cubic", h=1.3),
+     "h 1.5": dict(h=1.5), "h 1.2": dict(h=1.2), "weak scheme": dict(scheme="weak"),
+     "ghost": dict(wall="ghost"), "predictor-corrector": PC},
+    base=dict(frames=4), more={"default": [80]}, doubles=("default",), at=20,
+    h={"Wendland C2": ({}, [1.2, 1.5, 1.8, 2.0, 2.5])})
 
 standing_wave = Study(
     "standing_wave", "standing wave, Re 500 (B2)", "standing_wave",
@@ -322,5 +337,5 @@ hole = Study(
     h={"corrected": ({}, [1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0])},
     courant=by_integrator({}, 1.0), step=lambda n, h: h * 7 / n)
 
-STUDIES = [hydrostatic, still_tank, dam_break, taylor_green, standing_wave, elliptical_drop, pulse, pulse_amplitude,
+STUDIES = [hydrostatic, still_tank, dam_break, taylor_green, channel, standing_wave, elliptical_drop, pulse, pulse_amplitude,
            rings, plate, hole]
