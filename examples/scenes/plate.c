@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* plate.c: a plate clamped at one end that swings in its lowest mode (Gray 2001 sections 6.2 and 6.3), elastic or
-   plastic. It reaches from x = 0 to its length; the clamp is the region x < 0, held as a whole (ideal), or 8 cm of
-   plate between rows of held particles on both surfaces (surfaces: Gray's clamp). Starts from rest in shape with the
-   velocity of the mode
+   plastic. It reaches from x = 0 to its length. The clamp is the face x = 0 (ideal), the region x < 0 held as a whole
+   (region), or 8 cm of plate between rows of held particles on both surfaces (surfaces: Gray's clamp).
+     A clamp in the region x < 0 lets a displacement vanish where its first centres are, half a spacing and more behind
+   the face, which costs the first order of the spacing. The ideal clamp is one row of held particles whose centres
+   stand on the face; half of each lies in the plate, so its stress counts by half: shear modulus, yield stress and
+   c0^2 of that set are halved, its mass and weight stay. The free rows begin a spacing from the face and end half a
+   spacing from the end, length = (columns + 1/2) dx: their spacing along x is a little off that across.
+     Starts from rest in shape with the velocity of the mode
      V(x) = V_f [A (cosh bx - cos bx) + B (sinh bx - sin bx)]/(the same at L), cos bL cosh bL = -1, b L = 1.8751
    of a thin plate, whose period is 2 pi/sqrt(mu H^2 b^4/(6 rho (1 - nu))) (eq 6.3); tests/refdata/fe_plate_periods.csv
    has those of plane-strain finite elements. */
@@ -10,7 +15,7 @@
 #if SPH_DIM == 2
 
 enum { THICK = SOLID_COMMON, LENGTH, SPEED, ACROSS, CLAMP, STRETCH, CYCLES, PARAMS };
-enum { IDEAL, SURFACES };
+enum { IDEAL, SURFACES, REGION };
 
 static const scene_param param[PARAMS] = {
     SOLID_PARAMS(SPH_WENDLAND_C2, 0.8, 0, 0, SPH_KICK_DRIFT_KICK, 0.7, SPH_TOTAL, SPH_PRINCIPAL, 0.22, 0),
@@ -18,7 +23,7 @@ static const scene_param param[PARAMS] = {
     {"length", "cm", "free length", 20, 0.1, 1000, SCENE_NUMBER},
     {"speed", "c0", "velocity of the free end at the start, V_f", 0.01, -1, 1, SCENE_NUMBER},
     {"n", "-", "particles across the thickness", 20, 4, 400, SCENE_WHOLE},
-    {"clamp", "-", "clamp: ideal surfaces", IDEAL, 0, 1, SCENE_CHOICE},
+    {"clamp", "-", "clamp: ideal surfaces region", IDEAL, 0, 2, SCENE_CHOICE},
     {"stretch", "-", "form total: how far a bond may be drawn", 1.3, 1, 8, SCENE_NUMBER},
     {"cycles", "-", "length of the run in periods of a thin plate", 1.3, 0, 1000, SCENE_NUMBER},
 };
@@ -32,6 +37,14 @@ static double clamp_rows(const double *p)
 {
     return (double)(uint32_t)(sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] + 0.999999);
 }
+/* free columns along x, and their spacing */
+static double columns(const double *p)
+{
+    return (double)(uint32_t)(p[LENGTH] / spacing(p) + (p[CLAMP] == IDEAL ? 0 : 0.5));
+}
+static double along(const double *p) { return p[CLAMP] == IDEAL ? p[LENGTH] / (columns(p) + 0.5) : spacing(p); }
+/* where column k, 0 next to the clamp, stands */
+static double column_at(const double *p, double k) { return (k + (p[CLAMP] == IDEAL ? 1 : 0.5)) * along(p); }
 /* whole spacings that reach at least so far */
 static double whole(const double *p, double x) { return (double)(uint32_t)(x / spacing(p) + 0.999) * spacing(p); }
 
@@ -45,7 +58,7 @@ static double period(const double *p)
 static void configure(const double *p, sph_config *c)
 {
     const double dx = spacing(p), room = 0.75 * p[LENGTH] + 4 * p[THICK];
-    const double behind = p[CLAMP] == IDEAL ? clamp_rows(p) * dx : whole(p, CLAMP_LENGTH);
+    const double behind = p[CLAMP] == SURFACES ? whole(p, CLAMP_LENGTH) : clamp_rows(p) * dx;
     *c = solid_config(p, dx);
     c->max_stretch = p[STRETCH];
     c->lo[0] = -behind - 4 * dx;
@@ -78,25 +91,59 @@ static sph_status add_box(sph_sim *sim, uint32_t set, double x0, double x1, doub
     return sph_add_box(sim, set, lo, hi, NULL);
 }
 
+/* rows of particles from low y, each of so many columns from column_at(first) on */
+static sph_status add_rows(sph_sim *sim, uint32_t set, const double *p, double first, double count)
+{
+    sph_status st = SPH_OK;
+    for (double j = 0; j < p[ACROSS] && !st; j++)
+        for (double k = first; k < first + count && !st; k++) {
+            const double x[2] = {column_at(p, k), (j + 0.5) * spacing(p) - 0.5 * p[THICK]};
+            st = sph_add_particle(sim, set, x, NULL, 0, NULL);
+        }
+    return st;
+}
+
+/* the clamp and what it holds, clamp first; m: the plate's material */
+static sph_status build_ideal(sph_sim *sim, const double *p, sph_solid m)
+{
+    uint32_t plate, clamp;
+    double values[PARAMS];
+    for (int k = 0; k < PARAMS; k++)
+        values[k] = p[k];
+    m.mass = along(p) * spacing(p);
+    sph_status st = sph_add_solid(sim, &m, &plate, NULL);
+    m.held = 3;
+    m.shear *= 0.5;
+    m.yield *= 0.5;
+    m.hardening *= 0.5;
+    m.sound_speed = __builtin_sqrt(0.5); /* c0 = 1 */
+    if (st || (st = sph_add_solid(sim, &m, &clamp, NULL)) || (st = add_rows(sim, clamp, p, -1, 1)) ||
+        (st = add_rows(sim, plate, p, 0, columns(p))))
+        return st;
+    return sph_apply_field(sim, plate, swing, values);
+}
+
 static sph_status build(sph_sim *sim, const double *p)
 {
-    const double dx = spacing(p), rows = clamp_rows(p) * dx, half = 0.5 * p[THICK], gray = whole(p, CLAMP_LENGTH);
+    const double rows = clamp_rows(p) * spacing(p), half = 0.5 * p[THICK], gray = whole(p, CLAMP_LENGTH);
     double values[PARAMS];
     sph_solid m = solid_material(p);
     uint32_t plate = 0, clamp = 0;
+    if (p[CLAMP] == IDEAL)
+        return build_ideal(sim, p, m);
     for (int k = 0; k < PARAMS; k++)
         values[k] = p[k];
     sph_status st = sph_add_solid(sim, &m, &plate, NULL);
     m.held = 3;
     if (!st)
         st = sph_add_solid(sim, &m, &clamp, NULL);
-    const bool ideal = p[CLAMP] == IDEAL;
-    const double length = (double)(uint32_t)(p[LENGTH] / dx + 0.5) * dx; /* whole spacings */
-    if (!st && ideal)
+    const bool region = p[CLAMP] == REGION;
+    const double length = columns(p) * spacing(p);
+    if (!st && region)
         st = add_box(sim, clamp, -rows, 0, -half, half);
     if (!st)
-        st = add_box(sim, plate, ideal ? 0 : -gray, length, -half, half);
-    for (int side = -1; side < 2 && !ideal && !st; side += 2)
+        st = add_box(sim, plate, region ? 0 : -gray, length, -half, half);
+    for (int side = -1; side < 2 && !region && !st; side += 2)
         st = add_box(sim, clamp, -gray, 0, side < 0 ? -half - rows : half, side < 0 ? -half : half + rows);
     return st ? st : sph_apply_field(sim, plate, swing, values);
 }
@@ -110,10 +157,11 @@ static const char *const column[] = {"time_cm/c0", "tip_cm",       "kinetic_K.cm
 /* the middle of the free end: the last column's two particles next to the mid-line */
 static double tip(const sph_sim *sim, const double *p)
 {
-    /* the plate is added after an ideal clamp and before Gray's, rows from low y, in a row from low x */
-    const uint32_t n = (uint32_t)p[ACROSS], columns = (uint32_t)(p[LENGTH] / spacing(p) + 0.5);
-    const uint32_t first = p[CLAMP] == IDEAL ? (uint32_t)clamp_rows(p) * n : 0;
-    const uint32_t row = columns + (p[CLAMP] == IDEAL ? 0 : (uint32_t)(whole(p, CLAMP_LENGTH) / spacing(p) + 0.5));
+    /* the plate is added before Gray's clamp and after any other, rows from low y, in a row from low x */
+    const uint32_t n = (uint32_t)p[ACROSS], held = p[CLAMP] == IDEAL ? 1 : (uint32_t)clamp_rows(p);
+    const uint32_t first = p[CLAMP] == SURFACES ? 0 : held * n;
+    const uint32_t behind = p[CLAMP] == SURFACES ? (uint32_t)(whole(p, CLAMP_LENGTH) / spacing(p) + 0.5) : 0;
+    const uint32_t row = (uint32_t)columns(p) + behind;
     const uint32_t low = first + row * ((n - 1) / 2) + row - 1, high = first + row * (n / 2) + row - 1;
     double y = 0;
     sph_particle q;
@@ -128,11 +176,9 @@ static void history(const sph_sim *sim, const double *p, double *row)
     sph_totals o;
     double start = 0; /* energy at the start: of the mode */
     sph_get_totals(sim, &o);
-    const double dx = spacing(p);
-    const uint32_t columns = (uint32_t)(p[LENGTH] / dx + 0.5);
-    for (uint32_t k = 0; k < columns; k++) {
-        const double v = p[SPEED] * mode(p, (k + 0.5) * dx) / mode(p, p[LENGTH]);
-        start += 0.5 * dx * p[THICK] * v * v;
+    for (double k = 0; k < columns(p); k++) {
+        const double v = p[SPEED] * mode(p, column_at(p, k)) / mode(p, p[LENGTH]);
+        start += 0.5 * along(p) * p[THICK] * v * v;
     }
     row[0] = sph_time(sim);
     row[1] = tip(sim, p);
