@@ -171,6 +171,7 @@ builds_test_damage  := 2f 2d 3f 3d
 builds_test_options := 1d 2f 3f
 builds_test_arena   := $(BUILDS)
 builds_test_sponge  := 1f 1d 2f 2d 3f
+builds_test_shifting := $(BUILDS)
 builds_of = $(or $(builds_$(1)),2f 2d)
 # the stability atlas (tests/lab): one program of parts from several builds
 atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension atlas_sponge box) \
