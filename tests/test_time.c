@@ -120,6 +120,77 @@ static void the_limits_of_the_step_are_the_printed_ones(void **state)
     close_to(sph_time(sim), info.dt, 1e-15);
 }
 
+/* a periodic lattice whose densities lie above and below in turn, by 0.1: diffusion only. What is left of that after 200
+   steps, or 5 when it is more; s: the rate that the sums of the lattice have, 1/s */
+static double left_of_a_chequerboard(uint32_t integrator, double times, double *s, double *limit)
+{
+    enum { CELLS = 16 };
+    sph_config c = periodic_config(CELLS * DX, DX);
+    uint32_t set, total = 1;
+    sph_step_info info;
+    double largest = 0;
+    c.smoothing_length = 1.6 * DX;
+    c.viscosity = SPH_INVISCID;
+    c.diffusion = SPH_MOLTENI;
+    c.delta = 0.5;
+    c.cfl = 5;
+    c.integrator = integrator;
+    *s = 0;
+    for (int i = -4; i <= 4; i++)
+        for (int j = SPH_DIM > 1 ? -4 : 0; j <= (SPH_DIM > 1 ? 4 : 0); j++) {
+            const double r2 = (i * i + j * j) * DX * DX;
+            double w, dw;
+            if ((i + j) % 2 == 0 || sph_kernel_value(c.kernel, sqrt(r2), c.smoothing_length, &w, &dw))
+                continue;
+            *s -= 2 * c.delta * c.smoothing_length * 20 * pow(DX, SPH_DIM) * 2 * dw * sqrt(r2) /
+                  (r2 + 0.01 * c.smoothing_length * c.smoothing_length);
+        }
+    c.dt = times / *s;
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    for (int k = 0; k < SPH_DIM; k++)
+        total *= CELLS;
+    for (uint32_t i = 0; i < total; i++) {
+        double x[SPH_DIM];
+        uint32_t at = i, sum = 0;
+        for (int k = 0; k < SPH_DIM; k++, at /= CELLS) {
+            x[k] = (at % CELLS + 0.5) * DX;
+            sum += at % CELLS;
+        }
+        must(sim, sph_add_particle(sim, set, x, NULL, 1000 + (sum % 2 ? 0.1 : -0.1), NULL));
+    }
+    for (int k = 0; k < 200 && largest < 5; k++) {
+        must(sim, sph_step(sim));
+        largest = 0;
+        for (uint32_t i = 0; i < total; i++) {
+            sph_particle p;
+            assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+            largest = fmax(largest, fabs(p.rho - 1000) / 0.1);
+        }
+    }
+    c.dt = 0;
+    must(sim, sph_reconfigure(sim, &c));
+    sph_get_step(sim, &info);
+    *limit = info.limit_dt[SPH_LIMIT_COURANT];
+    assert_int_equal(free_sims(NULL), 0);
+    return largest;
+}
+
+static void the_step_is_short_enough_for_the_diffusion(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
+        const double stands = i >= SPH_RUNGE_KUTTA ? 2 : i == SPH_PREDICTOR_CORRECTOR ? 0.5 : 1;
+        double s, limit;
+        const double below = left_of_a_chequerboard(i, 0.9 * stands, &s, &limit);
+        const double above = left_of_a_chequerboard(i, 1.1 * stands, &s, &limit);
+        print_message("diffusion, integrator %u: 0.9 and 1.1 of the bound leave %.3g, %.3g; the step is %.3f of it\n", i, below,
+                      above, limit * s / stands);
+        assert_true(below < 0.5 && above >= 5);
+        assert_true(limit * s < stands && limit * s > 0.5 * stands);
+    }
+}
+
 static void a_falling_body_falls_exactly(void **state)
 {
     (void)state;
@@ -258,6 +329,7 @@ int main(void)
     const struct CMUnitTest list[] = {
         subject(sound_travels_at_the_speed_of_the_equation_of_state),
         subject(the_limits_of_the_step_are_the_printed_ones),
+        subject(the_step_is_short_enough_for_the_diffusion),
         subject(a_falling_body_falls_exactly),
         subject(a_bounce_keeps_the_speed),
         subject(steps_that_change_fall_exactly),
