@@ -120,8 +120,8 @@ static void the_limits_of_the_step_are_the_printed_ones(void **state)
     close_to(sph_time(sim), info.dt, 1e-15);
 }
 
-/* a periodic lattice whose densities lie above and below in turn, by 0.1: diffusion only. What is left of that after 200
-   steps, or 5 when it is more; s: the rate that the sums of the lattice have, 1/s */
+/* a periodic lattice whose densities lie above and below in turn, by 0.1: diffusion only. What is left of that after
+   200 steps, or 5 when it is more; s: the rate that the sums of the lattice have, 1/s */
 static double left_of_a_chequerboard(uint32_t integrator, double times, double *s, double *limit)
 {
     enum { CELLS = 16 };
@@ -184,8 +184,8 @@ static void the_step_is_short_enough_for_the_diffusion(void **state)
         double s, limit;
         const double below = left_of_a_chequerboard(i, 0.9 * stands, &s, &limit);
         const double above = left_of_a_chequerboard(i, 1.1 * stands, &s, &limit);
-        print_message("diffusion, integrator %u: 0.9 and 1.1 of the bound leave %.3g, %.3g; the step is %.3f of it\n", i, below,
-                      above, limit * s / stands);
+        print_message("diffusion, integrator %u: 0.9 and 1.1 of the bound leave %.3g, %.3g; the step is %.3f of it\n", i,
+                      below, above, limit * s / stands);
         assert_true(below < 0.5 && above >= 5);
         assert_true(limit * s < stands && limit * s > 0.5 * stands);
     }
