@@ -45,10 +45,10 @@ static double solids_stand(const sph_config *c)
 }
 
 /* Diffusion takes density off the shortest waves at a rate s = 2 delta c/h K, K = -h^2 sum V g, which is h^2 2 pi W(0)
-   in 2-D: 3.5 with Wendland's C2, in 3-D too, 4.5 and 4.6 with C4, less with the others. Runge-Kutta stands s dt = 2. The
-   others see, when they make rates, a density that was taken on by the rates before: kick-drift-kick and leap-frog
-   stand 1 (2 m^2 - (2 + 3 z) m + z = 0, z = -s dt, has the root m = -1 at z = -1), so does the predictor-corrector, and where
-   it foresees the rise 1/2. */
+   in 2-D: 3.5 with Wendland's C2, in 3-D too, 4.5 and 4.6 with C4, less with the others. Runge-Kutta stands s dt = 2.
+   The others see, when they make rates, a density that was taken on by the rates before: kick-drift-kick and leap-frog
+   stand 1 (2 m^2 - (2 + 3 z) m + z = 0, z = -s dt, has the root m = -1 at z = -1), so does the predictor-corrector, and
+   where it foresees the rise 1/2. */
 #define DIFFUSION_C2 7.0
 #define DIFFUSION_C4 9.2
 #define DIFFUSION_SPARE 0.95

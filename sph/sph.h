@@ -638,8 +638,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 /* Books kept in every scene, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
    the state, its digest and dumps follow from the list. `c`: the configuration. */
 #define SPH_BOOKS(X)                                                                                                  \
-    X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
-    X(shifted, "J", c->shifting > 0, "energy that shifting took; < 0: gave")                                         \
+    X(absorbed, "J", SPH_WITH_SPONGE && c->sponge_rate > 0, "kinetic energy that sponge layers took")                 \
+    X(shifted, "J", SPH_WITH_SHIFTING && c->shifting > 0, "energy that shifting took; < 0: gave")                    \
     X(removed_mass, "kg", false, "left the domain or was removed")
 
 typedef struct sph_totals {

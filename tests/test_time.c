@@ -184,7 +184,7 @@ static void the_step_is_short_enough_for_the_diffusion(void **state)
         double s, limit;
         const double below = left_of_a_chequerboard(i, 0.9 * stands, &s, &limit);
         const double above = left_of_a_chequerboard(i, 1.1 * stands, &s, &limit);
-        print_message("diffusion, integrator %u: 0.9 and 1.1 of the bound leave %.3g, %.3g; the step is %.3f of it\n", i,
+        print_message("diffusion, integrator %u: 0.9, 1.1 of the bound leave %.3g, %.3g; the step is %.3f of it\n", i,
                       below, above, limit * s / stands);
         assert_true(below < 0.5 && above >= 5);
         assert_true(limit * s < stands && limit * s > 0.5 * stands);
