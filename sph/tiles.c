@@ -26,6 +26,9 @@ typedef struct tile_choice {
    |v_ij|/2 of the kernel's edge, where its slope is of second order or higher in that distance. An image goes the
    image's way.
 
+   A particle of spray loses nearly all density on its way out of the water, by continuity; its volume counts as twice that
+   at rest at most, else diffusion would be past its bound (factors.c) beside it.
+
    Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by
    the next run or by sph_close_tile. */
 SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copied, tile_choice c)
@@ -69,7 +72,7 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
             v_store(t->rho + at + j, rho);
             v_store(t->press + at + j, c.ratio && c.press ? p / (rho * rho) : p);
             if (c.inv_rho)
-                v_store(t->inv_rho + at + j, 1 / rho);
+                v_store(t->inv_rho + at + j, 1 / v_max(rho, r0 * (sph_real)0.5));
         }
 }
 
