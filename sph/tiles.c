@@ -26,8 +26,8 @@ typedef struct tile_choice {
    |v_ij|/2 of the kernel's edge, where its slope is of second order or higher in that distance. An image goes the
    image's way.
 
-   A particle of spray loses nearly all density on its way out of the water, by continuity; its volume counts as twice that
-   at rest at most, else diffusion would be past its bound (factors.c) beside it.
+   A particle of spray loses nearly all density on its way out of the water, by continuity; its volume counts as twice
+   that at rest at most, else diffusion would be past its bound (factors.c) beside it.
 
    Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by
    the next run or by sph_close_tile. */
