@@ -192,8 +192,8 @@ static void the_step_is_short_enough_for_the_diffusion(void **state)
 }
 
 #if SPH_DOUBLE
-/* m/rho of a neighbour that has lost nearly all density is taken for that of half the density at rest: else the bound of
-   the step would be out by its thinness, and spray would take what it touches below 0 */
+/* m/rho of a neighbour that has lost nearly all density is taken for that of half the density at rest: else the bound
+   of the step would be out by its thinness, and spray would take what it touches below 0 */
 static void a_thin_neighbour_diffuses_no_faster(void **state)
 {
     (void)state;
