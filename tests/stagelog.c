@@ -102,7 +102,7 @@ static void field(const place *at, const char *name, const void *const *part, ui
 static void log_place(const place *at)
 {
     const sph_sim *s = at->sim;
-    const void *one[4] = {&s->dt};
+    const void *one[SPH_POWERS] = {&s->dt};
     field(at, "dt", one, 1, sizeof s->dt, 1);
     one[0] = &s->next.peaks;
     field(at, "peaks", one, 1, sizeof(sph_real), sizeof s->next.peaks / sizeof(sph_real));
