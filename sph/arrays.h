@@ -17,6 +17,7 @@
     ONE(extra, sph_real, (size_t)c->max_threads * extra_reals(c, NULL), true, "thread scratch of columns")        \
     ONE(cell, uint32_t, (size_t)g->cells + 2, true, "cell starts") /* cells + 1 of them are used */                   \
     ONE(slab, uint32_t, (size_t)g->slabs + 1, true, "slab starts") /* in the source buffer */                         \
+    ONE(turned, uint8_t, SPH_ROOM(c), sph_has_any_mirrors(c), "turned by mirrors") /* by source index */              \
     ONE(tmp, sph_real, SPH_ROOM(c), sph_filters(c) || sph_sums_density(c), "filtered density")                        \
     MANY(corr, sph_real, SPH_NL, SPH_ROOM(c), sph_corrects(c), "gradient correction") /* M^-1, destination buffer */  \
     MANY(gradient, sph_real, SPH_NT, SPH_ROOM(c), sph_corrects_fluids(c), "gradient correction of fluids")            \

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* faces.c: the rules of the domain's faces for one particle. Periodic: it comes in on the other side; mirrors: it is
-   reflected, and its velocity turns; open: it has left. */
+   reflected, and turns with all that it has; open: it has left. */
 #include "motion.h"
 #include "arithmetic.h"
 
 SPH_OBJECT(faces)
 
-/* puts a coordinate that left the domain back by the face's rule: 0 fine, 1 reflected, 2 left */
-static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
+/* puts a coordinate that left the domain back by the face's rule; returns as below */
+static uint32_t enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
 {
     const bool high = *q >= sim->grid.extent[k];
     if (*q >= 0 && !high)
@@ -18,10 +18,11 @@ static int enforce_face(const sph_sim *sim, uint32_t k, sph_pos *q)
     else if (SPH_IS(face, SYMMETRY) || SPH_IS(face, MIRROR_NO_SLIP))
         *q = high ? 2 * sim->grid.extent[k] - 1 - *q : -*q;
     else
-        return 2;
+        return SPH_LEFT;
     /* a move of a whole domain may end a quantum outside again */
     *q = *q < 0 ? 0 : *q < sim->grid.extent[k] ? *q : sim->grid.extent[k] - 1;
-    return SPH_IS(face, PERIODIC) ? 0 : 1;
+    const uint32_t turned = SPH_IS(face, SYMMETRY) ? SPH_TURNS_VECTORS | SPH_TURNS_TENSORS : SPH_TURNS_VECTORS;
+    return SPH_IS(face, PERIODIC) ? 0 : turned << k;
 }
 
 #if SPH_WITH_DETAILS
@@ -36,14 +37,10 @@ void sph_note_left(const sph_sim *sim, const sph_pos *q, uint32_t id, sph_thread
 }
 #endif
 
-int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v)
+uint32_t sph_enforce_faces(const sph_sim *sim, sph_pos *q)
 {
-    int worst = 0;
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        int r = enforce_face(sim, k, &q[k]);
-        if (r == 1)
-            v[k] = -v[k];
-        worst = r > worst ? r : worst;
-    }
-    return worst;
+    uint32_t turned = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        turned |= enforce_face(sim, k, &q[k]);
+    return turned;
 }

@@ -32,20 +32,22 @@ typedef sph_int sph_pos;
        SPH_DISPLACED  carried, and gains what the particle moved (quanta; component k is along axis k)
        SPH_EVOLVES(r) carried, and advanced by every integrator with its rate, field r
      Reals that are carried or evolve must be finite at a step's end; | SPH_NOT_NEGATIVE or | SPH_SHARE (0 .. 1): more.
+     A mirror that a particle goes through turns it with all that it has: | SPH_VECTOR (component k is along axis k) or
+     | SPH_DEVIATOR (components as in SPH_NS); else a scalar. What is placed the sort turns itself.
    Sort, integrators, hash, dump, restore, wipe and arena sizes follow from it. */
 #define SPH_STATE_FIELDS(X)                                                                                       \
     X(pos, sph_pos, SPH_DIM, "quantum", true, SPH_PLACED)                                                         \
-    X(vel, sph_real, SPH_DIM, "m/s", true, SPH_PLACED)                                                            \
+    X(vel, sph_real, SPH_DIM, "m/s", true, SPH_PLACED | SPH_VECTOR)                                               \
     X(rho, sph_real, 1, "1", true, SPH_PLACED) /* (density - rho0)/rho0 */                                        \
-    X(acc, sph_real, SPH_DIM, "m/s^2", true, SPH_SUMMED)                                                          \
+    X(acc, sph_real, SPH_DIM, "m/s^2", true, SPH_SUMMED | SPH_VECTOR)                                             \
     X(drho, sph_real, 1, "1/s", true, SPH_SUMMED)                                                                 \
     X(rise, sph_real, 1, "1/s", sph_foresees(c), SPH_SUMMED) /* half of what drho rose by in the latest step */      \
-    X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c), SPH_SUMMED)                                               \
-    X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c), SPH_EVOLVES(dstress)) /* deviatoric: see SPH_NS */       \
-    X(dstress, sph_real, SPH_NS, "Pa/s", sph_has_solids(c), SPH_RATE)                                             \
+    X(xsph, sph_real, SPH_DIM, "m/s", sph_uses_xsph(c), SPH_SUMMED | SPH_VECTOR)                                  \
+    X(stress, sph_real, SPH_NS, "Pa", sph_has_solids(c), SPH_EVOLVES(dstress) | SPH_DEVIATOR) /* deviatoric */    \
+    X(dstress, sph_real, SPH_NS, "Pa/s", sph_has_solids(c), SPH_RATE | SPH_DEVIATOR)                              \
     X(plastic, sph_real, 1, "1", sph_yields(c), SPH_CARRIED | SPH_NOT_NEGATIVE)                                   \
     X(damage, sph_real, 1, "1", sph_damages(c), SPH_CARRIED | SPH_SHARE) /* D^(1/SPH_DIM) */                      \
-    X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c), SPH_DISPLACED) /* displacement since the start */      \
+    X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c), SPH_DISPLACED | SPH_VECTOR) /* since the start */      \
     X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: an index into src */              \
     X(set, uint8_t, 1, "1", true, SPH_PLACED)                                                                     \
     SPH_EXTRA_FIELDS(X)
@@ -76,7 +78,9 @@ enum {
     SPH_EVOLVING,
     SPH_WAYS = 7,         /* the bits of those above */
     SPH_NOT_NEGATIVE = 8,
-    SPH_SHARE = 16
+    SPH_SHARE = 16,
+    SPH_VECTOR = 32,
+    SPH_DEVIATOR = 64
 };
 #define SPH_EVOLVES(rate) (SPH_EVOLVING | SPH_FIELD_AT(rate) << 8)
 
@@ -89,6 +93,7 @@ typedef struct sph_field {
     uint8_t way;       /* SPH_PLACED .. SPH_EVOLVING */
     uint8_t range;     /* SPH_NOT_NEGATIVE, SPH_SHARE, or 0 */
     uint8_t rate;      /* SPH_EVOLVING: SPH_FIELD_AT its rate */
+    uint8_t kind;      /* SPH_VECTOR, SPH_DEVIATOR, or 0: a scalar */
 } sph_field;
 
 enum {

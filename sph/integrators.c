@@ -126,7 +126,6 @@ static void correct_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_span s = sph_chunk_span(sim, chunk);
     sph_correct_fields(sim, s);
     restrain(sim, s);
-    sph_note_drift(sim, s, 0, t);
     sph_correct(sim, s);
     sph_mend_drift(sim, s, t);
     finish(sim, chunk, s, t);
@@ -149,18 +148,12 @@ static sph_status at_the_end(sph_sim *sim)
 }
 static const sph_pass pass_density = {"density", sph_local_chunks, density_chunk, at_the_end, NULL};
 
-static void kick(sph_sim *sim, sph_span s, sph_real times, sph_thread *t)
-{
-    sph_note_drift(sim, s, (sph_real)sim->dt * (sph_real)0.5, t);
-    sph_kick(sim, s, times);
-    sph_mend_drift(sim, s, t);
-}
-
 /* kick-drift-kick: the second kick */
 static void kick_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
-    kick(sim, s, 1, t);
+    sph_kick(sim, s, 1);
+    sph_mend_drift(sim, s, t);
     finish(sim, chunk, s, t);
 }
 static const sph_pass pass_kick = {"kick", sph_local_chunks, kick_chunk, finished, NULL};
@@ -169,7 +162,8 @@ static const sph_pass pass_kick = {"kick", sph_local_chunks, kick_chunk, finishe
 static void velocity_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
-    kick(sim, s, 2, t);
+    sph_kick(sim, s, 2);
+    sph_mend_drift(sim, s, t);
     finish(sim, chunk, s, t);
 }
 static const sph_pass pass_velocity = {"velocity", sph_local_chunks, velocity_chunk, finished, NULL};
@@ -186,9 +180,10 @@ static const sph_pass pass_settle = {"settle", sph_local_chunks, settle_chunk, N
 static void advance_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
+    sph_retake_fields(sim, s);
     for (uint32_t i = s.first; i < s.last; i++)
         sph_runge_kutta(sim, i, t);
-    sph_retake_fields(sim, s);
+    sph_displace_again(sim, s);
     restrain(sim, s);
     finish(sim, chunk, s, t);
 }

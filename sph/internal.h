@@ -251,6 +251,11 @@ SPH_INLINE bool sph_has_mirrors(const sph_config *c, uint32_t k) /* on axis k */
     return SPH_HAS_MIRRORS && (SPH_IS(c->face[k][0], SYMMETRY) || SPH_IS(c->face[k][0], MIRROR_NO_SLIP) ||
                                SPH_IS(c->face[k][1], SYMMETRY) || SPH_IS(c->face[k][1], MIRROR_NO_SLIP));
 }
+SPH_INLINE bool sph_has_any_mirrors(const sph_config *c)
+{
+    return sph_has_mirrors(c, 0) || (SPH_DIM > 1 && sph_has_mirrors(c, SPH_DIM > 1)) ||
+           (SPH_DIM > 2 && sph_has_mirrors(c, SPH_DIM - 1));
+}
 SPH_INLINE bool sph_filters(const sph_config *c) { return SPH_WITH_SHEPARD && c->shepard_every != 0; }
 
 SPH_INLINE bool sph_has_solids(const sph_config *c) { return SPH_WITH_SOLID && c->solid != SPH_NO_SOLID; }
@@ -399,6 +404,23 @@ SPH_INLINE const uint32_t *sph_source_index(const sph_sim *sim) { return sim->bu
 SPH_INLINE uint32_t sph_source_id(const sph_sim *sim, uint32_t i)
 {
     return sim->buf[sim->src].id[0][sph_source_index(sim)[i]];
+}
+
+/* What mirrors have turned of a particle between buffer src, of which it is number p, and dst (array `turned`): bits
+   1 << axis of vectors, 8 << axis of tensors too. A plane of symmetry puts the mirrored particle in its place, with all
+   that it has. A no-slip mirror throws it back: its velocity turns, but the shear stress on the plane goes on through
+   it, as in the image (tiles.c, stress.c). -1 where an odd number of the bits of `mask`, one or two, are set. */
+#define SPH_TURNS_VECTORS 1u
+#define SPH_TURNS_TENSORS 8u
+SPH_INLINE sph_real sph_turn_of(const sph_sim *sim, uint32_t p, uint32_t mask)
+{
+    const uint32_t set = sim->turned[p] & mask;
+    return set != 0 && (set & (set - 1)) == 0 ? -1 : 1;
+}
+/* of component k of a vector of particle i of dst, until the stage settles; the scene has mirrors */
+SPH_INLINE sph_real sph_turn(const sph_sim *sim, uint32_t k, uint32_t i)
+{
+    return sph_turn_of(sim, sph_source_index(sim)[i], SPH_TURNS_VECTORS << k);
 }
 
 /* whether a wall group is gone, and how fast it moves along an axis (m/s), at the moment of the stage under way */

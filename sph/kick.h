@@ -7,23 +7,12 @@
 
 #include "motion.h"
 
-/* A mirror face that turned the velocity of particle i along axis k at the sort turned the frame in which the particle
-   was accelerated: -1; else 1. `ahead`: what its velocity has been given since of the old acceleration, s. */
-SPH_INLINE_BIG sph_real sph_turn(const sph_sim *sim, uint32_t k, uint32_t i, const sph_move *m, sph_real ahead)
-{
-    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
-    const uint32_t from = b->id[0][i];
-    const sph_real a = o->acc[k][from], v = (o->vel[k][from] + a * m->kick) * m->damping; /* as in move.c */
-    return b->vel[k][i] == v + ahead * a ? 1 : -1;
-}
-
 /* v = v + step a with the acceleration a of the step's beginning, along the axes on which a run of one set is free; on
    others it moves as it is told: velocities of a step's middle become those of its end, to second order */
 SPH_INLINE void sph_foresee_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, set), *at = b->id[0];
-    const sph_move m = SPH_HAS_MIRRORS ? sph_stage_move(sim) : (sph_move){0};
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         sph_real *v = b->vel[k];
         const sph_real *old = o->acc[k];
@@ -31,27 +20,26 @@ SPH_INLINE void sph_foresee_run(const sph_sim *sim, const sph_set *set, uint32_t
         for (uint32_t i = first; i < last && !free; i++)
             v[i] = (sph_real)sim->next.group[set->group].vel[k];
         for (uint32_t i = first; i < last && mirrors; i++)
-            v[i] = v[i] + sph_turn(sim, k, i, &m, 0) * (step * old[at[i]]);
+            v[i] = v[i] + sph_turn(sim, k, i) * (step * old[at[i]]);
         for (uint32_t i = first; i < last && free && !mirrors; i++)
             v[i] = v[i] + step * old[at[i]];
     }
 }
 
 /* v = damping (v + step (times a - a_o)) of a run of one set, along the axes on which it is free, with the acceleration
-   a_o of the step's beginning, of which v had `ahead` (s) after the sort's share */
+   a_o of the step's beginning */
 SPH_INLINE_BIG void sph_kick_run(const sph_sim *sim, const sph_set *set, uint32_t first, uint32_t last, sph_real step,
-                                 sph_real times, sph_real ahead)
+                                 sph_real times)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, set), *at = b->id[0];
     const sph_real g = (sph_real)sim->cfg.damping;
-    const sph_move m = SPH_HAS_MIRRORS ? sph_stage_move(sim) : (sph_move){0};
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         sph_real *v = b->vel[k];
         const sph_real *a = b->acc[k], *old = o->acc[k];
         const bool free = !(held >> k & 1), mirrors = free && sph_has_mirrors(&sim->cfg, k);
         for (uint32_t i = first; i < last && mirrors; i++)
-            v[i] = g * (v[i] + step * (times * a[i] - sph_turn(sim, k, i, &m, ahead) * old[at[i]]));
+            v[i] = g * (v[i] + step * (times * a[i] - sph_turn(sim, k, i) * old[at[i]]));
         for (uint32_t i = first; i < last && free && !mirrors; i++)
             v[i] = g * (v[i] + step * (times * a[i] - old[at[i]]));
     }
@@ -81,7 +69,7 @@ SPH_INLINE void sph_correct(const sph_sim *sim, sph_span s)
             b->rise[0][j] = rise * (sph_real)0.5;
         }
         if (body)
-            sph_kick_run(sim, set, i, e, half, 1, 0);
+            sph_kick_run(sim, set, i, e, half, 1);
     }
 }
 
@@ -94,7 +82,7 @@ SPH_INLINE void sph_kick(const sph_sim *sim, sph_span s, sph_real times)
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(sets, i, s.last);
         if (sph_is_body(&sim->set[sets[i]]))
-            sph_kick_run(sim, &sim->set[sets[i]], i, e, half, times, half);
+            sph_kick_run(sim, &sim->set[sets[i]], i, e, half, times);
     }
 }
 
@@ -115,25 +103,23 @@ SPH_INLINE void sph_to_the_end(const sph_sim *sim, sph_span s)
     }
 }
 
-/* x moves by d (m); the faces' rules apply as in the sort */
+/* x moves by d (m) from a place in the frame in which the particle stands; the faces' rules apply as in the sort */
 SPH_INLINE_BIG void sph_place(const sph_sim *sim, uint32_t i, const double *d, const sph_pos *from, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     sph_pos q[SPH_DIM];
-    sph_real v[SPH_DIM];
     const double part = (double)sph_rounding(sim);
     bool short_way = true;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         double s = d[k] / sim->grid.quantum;
         short_way &= sph_abs(d[k]) < sim->grid.length[k] / sim->grid.ncell[k];
         q[k] = from[k] + (sph_pos)(short_way ? s < 0 ? s - part : s + part : 0);
-        v[k] = b->vel[k][i];
     }
     if (!short_way)
         sph_fail_note(t, d[0] - d[0] == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE,
                       sph_source_id(sim, i), d[0]);
-    int r = sph_enforce_faces(sim, q, v);
-    if (r == 2) {
+    const uint32_t turned = sph_enforce_faces(sim, q);
+    if (turned & SPH_LEFT) {
         t->left++;
         if (sim->cfg.on_leave == SPH_FAIL || !sph_is_body(&sim->set[b->set[0][i]]))
             sph_note_left(sim, q, sph_source_id(sim, i), t);
@@ -144,37 +130,28 @@ SPH_INLINE_BIG void sph_place(const sph_sim *sim, uint32_t i, const double *d, c
         }
         return;
     }
-    t->reflected += r == 1;
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
+    for (uint32_t k = 0; k < SPH_DIM; k++)
         b->pos[k][i] = q[k];
-        b->vel[k][i] = v[k];
-    }
+    if (!SPH_HAS_MIRRORS || !turned)
+        return;
+    t->reflected++;
+    sph_turn_fields(sim, i, turned);
 }
 
 /* XSPH: places went with the drift velocity u_o that stood at the step's beginning. What they lack to second order is
-   dt/2 (u - u_o); it is noted before velocities are kicked, which show whether a mirror face turned them (`ahead` as
-   above), and gone behind that. Runge-Kutta drifts with u of the middle. */
-SPH_INLINE_BIG void sph_note_drift(const sph_sim *sim, sph_span s, sph_real ahead, sph_thread *t)
+   dt/2 (u - u_o). Runge-Kutta drifts with u of the middle. */
+SPH_INLINE_BIG void sph_mend_drift(const sph_sim *sim, sph_span s, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const sph_real half = (sph_real)sim->dt * (sph_real)0.5;
-    const sph_move m = SPH_HAS_MIRRORS ? sph_stage_move(sim) : (sph_move){0};
-    for (uint32_t k = 0; k < SPH_DIM && sph_drift(b, 0); k++)
-        for (uint32_t i = s.first; i < s.last; i++) {
-            const sph_real turn = sph_has_mirrors(&sim->cfg, k) ? sph_turn(sim, k, i, &m, ahead) : 1;
-            t->aside[k][i - s.first] = half * (sph_drift(b, k)[i] - turn * sph_drift(o, k)[b->id[0][i]]);
-        }
-}
-SPH_INLINE_BIG void sph_mend_drift(const sph_sim *sim, sph_span s, sph_thread *t)
-{
-    const sph_buffer *b = &sim->buf[sim->dst];
     if (!sph_drift(b, 0))
         return;
     for (uint32_t i = s.first; i < s.last; i++) {
         double d[SPH_DIM];
         sph_pos from[SPH_DIM];
         for (uint32_t k = 0; k < SPH_DIM; k++) {
-            d[k] = (double)t->aside[k][i - s.first];
+            const sph_real turn = sph_has_mirrors(&sim->cfg, k) ? sph_turn(sim, k, i) : 1;
+            d[k] = (double)(half * (sph_drift(b, k)[i] - turn * sph_drift(o, k)[b->id[0][i]]));
             from[k] = b->pos[k][i];
         }
         if (sph_is_body(&sim->set[b->set[0][i]]))

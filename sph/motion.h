@@ -12,10 +12,11 @@
 
 /* ---- faces.c ---- */
 
-/* applies the rules of the domain's faces to one particle; reflections turn the velocity. 0 inside, 1 reflected, 2
-   left */
+/* Applies the rules of the domain's faces to a place. Returns what mirrors turned (sph_turn_of), and SPH_LEFT where it
+   is outside an open face. */
+#define SPH_LEFT 64u
 #define sph_enforce_faces SPH_NAME(enforce_faces_)
-int sph_enforce_faces(const sph_sim *sim, sph_pos *q, sph_real *v);
+uint32_t sph_enforce_faces(const sph_sim *sim, sph_pos *q);
 /* notes that a particle which sph_enforce_faces left at q has left the domain, and through which face */
 #define sph_note_left SPH_NAME(note_left_)
 #if SPH_WITH_DETAILS
@@ -65,6 +66,9 @@ void sph_correct_fields(sph_sim *sim, sph_span s); /* + dt/2 (new rate - rate in
 void sph_retake_fields(sph_sim *sim, sph_span s);  /* from src again, + dt new rate */
 #define sph_displace_again SPH_NAME(displace_again_)
 void sph_displace_again(const sph_sim *sim, sph_span s); /* displacements once more: positions have changed since */
+/* mirrors turned particle i of dst: all that it has but displacements (see sph_turn_of) */
+#define sph_turn_fields SPH_NAME(turn_fields_)
+void sph_turn_fields(const sph_sim *sim, uint32_t i, uint32_t turned);
 /* a particle of b is displaced by d quanta along axis k otherwise than by the sort */
 #define sph_displace_fields SPH_NAME(displace_fields_)
 void sph_displace_fields(const sph_sim *sim, const sph_buffer *b, uint32_t i, uint32_t k, sph_pos d);

@@ -127,8 +127,8 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
     }
     if (own && !(far < 1) && body)
         sph_fail_note(t, far - far == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE, b->id[0][i], (double)far);
-    const int r = sph_enforce_faces(sim, q, v);
-    if (r == 2) {
+    const uint32_t turned = sph_enforce_faces(sim, q);
+    if (turned & SPH_LEFT) {
         o->gone[j] = 2;
         if (own && (sim->cfg.on_leave == SPH_FAIL || !body))
             sph_note_left(sim, q, b->id[0][i], t);
@@ -137,11 +137,13 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
             sph_carry_off(sim, b, i, t);
         return;
     }
-    t->reflected += own && !all && r == 1 && sim->stage->reflects;
+    t->reflected += own && !all && turned && sim->stage->reflects;
+    if (own && !all && turned)
+        sim->turned[i] = (uint8_t)turned;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         o->pos[k][j] = q[k];
         if (all)
-            o->vel[k][j] = v[k];
+            o->vel[k][j] = turned & SPH_TURNS_VECTORS << k ? -v[k] : v[k];
     }
 }
 
@@ -151,6 +153,9 @@ SPH_INLINE_BIG bool move_block(const sph_sim *sim, const sph_move *a, uint32_t i
     const sph_buffer *b = &sim->buf[sim->src];
     sph_block *o = &t->block;
     bool fine = true;
+    for (uint32_t j = i; SPH_HAS_MIRRORS && !all && sim->turned && j < i + n; j++)
+        if (j >= own_from && j < own_to)
+            sim->turned[j] = 0;
     for (uint32_t j = 0; j < n;) {
         const uint8_t set = b->set[0][i + j];
         const uint32_t e = sph_run_end(b->set[0], i + j, i + n) - i;

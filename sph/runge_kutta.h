@@ -27,6 +27,8 @@ SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const bool momentum = SPH_IS(sim->cfg.integrator, RUNGE_KUTTA_MOMENTUM);
     const sph_real dt = (sph_real)sim->dt, half = dt * (sph_real)0.5;
+    if (SPH_HAS_MIRRORS && sim->turned) /* what was turned at half time goes back into the frame of src */
+        sph_turn_fields(sim, i, sim->turned[b->id[0][i]]);
     const uint32_t p = b->id[0][i];
     const sph_set *set = &sim->set[b->set[0][i]];
     if (sph_is_body(set) || sph_is_compressible(set)) {
@@ -50,9 +52,7 @@ SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
         }
         const sph_real *beside = sph_drift(b, k);
         const sph_real v = o->vel[k][p], half_v = v + half * o->acc[k][p];
-        /* a mirror face that turned the velocity at half time turned the frame of the forces there: turn it back */
-        const sph_real turn = b->vel[k][i] == half_v ? 1 : -1;
-        const sph_real a = turn * b->acc[k][i], x = beside ? turn * beside[i] : 0;
+        const sph_real a = b->acc[k][i], x = beside ? beside[i] : 0;
         const sph_real mid = v + half * a;
         const sph_real u = momentum ? (sph_real)0.5 * ((v + dt * o->acc[k][p]) + v) : half_v;
         move[k] = (double)dt * (double)(u + x);

@@ -72,7 +72,6 @@ typedef struct sph_thread {
 #endif
         };
         sph_block block;                /* the sort */
-        sph_real aside[SPH_DIM][SPH_LOCAL_CHUNK]; /* ways of a chunk's particles that they have still to go, m */
         uint8_t near[SPH_LOCAL_CHUNK];  /* 1: particle of the chunk may be inside a wall */
     };
     /* what a pass gathers over its chunks: order does not matter for any of these */

@@ -272,12 +272,12 @@ static void draw_state(plan *p, plan_point *q, double v, double d)
         q->moved[k] = range(-0.2, 0.2) * c->spacing;
 }
 
-/* how far particles that will move stay off a face that they must not go through: open ones, and of solids mirrors */
+/* how far particles that will move stay off a face that they must not go through: open ones */
 static double shy_of(const plan *p, int k, int side)
 {
     const uint32_t face = p->cfg.face[k][side];
     const bool moves = p->still_step || p->steps > 0;
-    return moves && (face == SPH_OPEN || (face != SPH_PERIODIC && p->solids)) ? 0.1 * p->cfg.spacing : 0;
+    return moves && face == SPH_OPEN ? 0.1 * p->cfg.spacing : 0;
 }
 
 static void draw_points(plan *p)

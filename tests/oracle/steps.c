@@ -12,8 +12,9 @@
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
    where its motion says at each of these times. At the end of a step damage grows, then sponges take. Faces: periodic
-   ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated
-   by. */
+   ones let in on the other side; a plane of symmetry takes the mirrored particle instead, with all that it has: place,
+   reference position, velocity, stress, and their rates. A no-slip mirror throws it back: what has a direction turns
+   along its normal, but the shear stress on the plane, which goes on through it, stays. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,7 +25,7 @@ typedef struct beginning {
     double x[3], v[3], d, rest[3], dev[3][3], plastic;
     double a[3], u[3], rate, dev_rate[3][3]; /* rate: of the excess d, 1/s */
     double rise;
-    bool turned[3]; /* by a mirror since */
+    bool turned[3], mirrored[3]; /* by a mirror since: vectors; tensors too */
 } beginning;
 static beginning *was;
 static double last;
@@ -64,6 +65,7 @@ static void remember_state(const o_scene *s)
         memcpy(b->rest, p->rest, sizeof b->rest);
         memcpy(b->dev, p->dev, sizeof b->dev);
         memset(b->turned, 0, sizeof b->turned);
+        memset(b->mirrored, 0, sizeof b->mirrored);
         b->d = p->d;
         b->plastic = p->plastic;
     }
@@ -108,6 +110,22 @@ static void tell(o_scene *s, double t, double dt_of_mean)
 
 /* ---- faces ---- */
 
+/* a mirror of axis k takes a particle, and what it was accelerated by */
+static void turn_round(o_particle *p, int k, double plane, bool tensors)
+{
+    p->x[k] = 2 * plane - p->x[k];
+    p->rest[k] = 2 * plane - p->rest[k];
+    p->v[k] = -p->v[k];
+    p->a[k].v = -p->a[k].v;
+    p->drift[k].v = -p->drift[k].v;
+    for (int l = 0; l < 3 && tensors; l++) {
+        if (l == k)
+            continue;
+        p->dev[k][l] = p->dev[l][k] = -p->dev[k][l];
+        p->stress_rate[k][l].v = p->stress_rate[l][k].v = -p->stress_rate[k][l].v;
+    }
+}
+
 static void pass_faces(o_scene *s)
 {
     for (uint32_t i = 0; i < s->n; i++) {
@@ -128,18 +146,20 @@ static void pass_faces(o_scene *s)
                 p->x[k] += way;
                 p->rest[k] += way;
             } else {
-                const double plane = low ? lo : hi;
-                if (o_is_solid(s, p)) /* its shear stress and its reference position would have to turn, too */
-                    s->undecided = "a solid goes through a mirror";
-                p->x[k] = 2 * plane - p->x[k];
-                p->v[k] = -p->v[k];
+                turn_round(p, k, low ? lo : hi, face == SPH_SYMMETRY);
                 b->turned[k] = !b->turned[k];
+                b->mirrored[k] = b->mirrored[k] != (face == SPH_SYMMETRY);
             }
         }
     }
 }
 /* component k of a vector of the beginning, in the frame that mirrors have turned since */
 static double turned(const beginning *b, int k, double v) { return b->turned[k] ? -v : v; }
+/* component kl of a tensor, likewise */
+static double mirrored(const beginning *b, int k, int l, double v)
+{
+    return k != l && b->mirrored[k] != b->mirrored[l] ? -v : v;
+}
 
 /* ---- pieces of steps ---- */
 
@@ -193,7 +213,8 @@ static void go_whole(o_scene *s, double dt)
             p->d = was[i].d + dt * p->rate.v / s->set[p->set].rho0;
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3; l++)
-                p->dev[k][l] = was[i].dev[k][l] + (o_is_solid(s, p) ? dt * p->stress_rate[k][l].v : 0);
+                p->dev[k][l] = mirrored(&was[i], k, l, was[i].dev[k][l]) +
+                               (o_is_solid(s, p) ? dt * p->stress_rate[k][l].v : 0);
     }
     restrain(s);
 }
@@ -235,7 +256,7 @@ static void predict_correct(o_scene *s, uint32_t number, double dt)
         }
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3 && o_is_solid(s, p); l++)
-                p->dev[k][l] += half(dt) * (p->stress_rate[k][l].v - b->dev_rate[k][l]);
+                p->dev[k][l] += half(dt) * (p->stress_rate[k][l].v - mirrored(b, k, l, b->dev_rate[k][l]));
     }
     o_yield(s);
     mend_drift(s, dt);
@@ -263,6 +284,7 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3; l++)
                 b->dev_rate[k][l] = o_is_solid(s, p) ? p->stress_rate[k][l].v : 0;
+        memset(b->mirrored, 0, sizeof b->mirrored); /* this rate is of the frame of the end so far */
         for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
             if (!is_held(s, p, k))
                 p->v[k] += half(dt) * turned(b, k, b->a[k]);
@@ -280,6 +302,10 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
                           (p->v[k] + half(dt) * ((leaps ? 2 : 1) * p->a[k].v - turned(b, k, b->a[k])));
     }
     mend_drift(s, dt);
+    for (uint32_t i = 0; i < s->n; i++)
+        for (int k = 0; k < 3; k++)
+            for (int l = 0; l < 3; l++)
+                was[i].dev_rate[k][l] = mirrored(&was[i], k, l, was[i].dev_rate[k][l]);
 }
 
 static void runge_kutta(o_scene *s, uint32_t number, double dt)
@@ -306,6 +332,14 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
         memcpy(p->rest, b->rest, sizeof p->rest);
     }
     go_whole(s, dt);
+    for (uint32_t i = 0; i < s->n; i++) { /* back into the frame of the beginning, and from there to the end */
+        o_particle *p = &s->own[i];
+        for (int k = 0; k < 3; k++)
+            for (int l = 0; l < 3; l++)
+                p->dev[k][l] = mirrored(&was[i], k, l, p->dev[k][l]);
+        memset(was[i].turned, 0, sizeof was[i].turned);
+        memset(was[i].mirrored, 0, sizeof was[i].mirrored);
+    }
     pass_faces(s);
     s->time += half(dt);
     tell(s, s->time, 0);
