@@ -134,9 +134,24 @@ static evolving next_evolving(const sph_sim *sim, const evolving *e)
     return evolving_from(sim, e->field, e->comp + 1);
 }
 
+/* what the sweeps of an earlier stage gave: sums and rates */
+static void take_given(const sph_sim *sim, sph_span s)
+{
+    for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++)
+        for (uint32_t k = 0; k < f->comps && (f->way == SPH_SUMMED || f->way == SPH_RATE); k++) {
+            sph_real *const to = sph_array(&sim->buf[sim->dst], f->at + k);
+            if (to)
+                take(to, sph_array(&sim->buf[sim->src], f->at + k), sph_source_index(sim), f->bytes, s);
+            if (to && f->real)
+                turn(sim, turns_of(f, k), to, s);
+        }
+}
+
 void sph_carry_fields(sph_sim *sim, sph_span s)
 {
     take_drift(sim, s);
+    if (sim->stage->keeps)
+        take_given(sim, s);
     if (!sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS))
         return;
     const uint32_t *at = sph_source_index(sim);
@@ -148,7 +163,8 @@ void sph_carry_fields(sph_sim *sim, sph_span s)
     }
     take_fields(sim, s);
     for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++)
-        for (uint32_t k = 0; k < f->comps && f->way == SPH_RATE && sph_array(&sim->buf[sim->dst], f->at); k++)
+        for (uint32_t k = 0; k < f->comps && f->way == SPH_RATE && !sim->stage->keeps &&
+                             sph_array(&sim->buf[sim->dst], f->at); k++)
             memset((unsigned char *)sph_array(&sim->buf[sim->dst], f->at + k) + (size_t)s.first * f->bytes, 0,
                    (size_t)(s.last - s.first) * f->bytes);
 }

@@ -17,17 +17,18 @@ SPH_OBJECT(integrators)
 
 /* ---- what stages do at their sorts ---- */
 
-/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle. Kick-drift-kick and leap-frog take
+/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle, keeps. Kick-drift-kick and leap-frog take
    fields to the middle of the step by the rates of the last middle: to second order there, enough for rates that
    depend on them. Leap-frog's kick and bend follow from the last step (move.c). */
-static const sph_stage stays = {0, 0, 0, 0, 0, false, true, false, false};
-static const sph_stage begins = {0, 0, 0, 0, 1, false, true, false, false};
-static const sph_stage falls_back = {0, 0, 0, 0, 1, false, true, true, false}; /* leap-frog, before first forces */
-static const sph_stage predicts = {1, 0.5, 1, 1, 1, true, true, false, false}; /* Gray 2001 eqs 2.26, 2.27, 2.29 */
-static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0.5, 1, true, true, false, true};
-static const sph_stage leaps = {1, 0, 0, 0.5, 1, false, true, true, true};
+static const sph_stage stays = {0, 0, 0, 0, 0, false, true, false, false, false};
+static const sph_stage begins = {0, 0, 0, 0, 1, false, true, false, false, false};
+static const sph_stage falls_back = {0, 0, 0, 0, 1, false, true, true, false, false}; /* leap-frog, before first forces */
+static const sph_stage predicts = {1, 0.5, 1, 1, 1, true, true, false, false, false}; /* Gray 2001 eqs 2.26, 2.27, 2.29 */
+static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0.5, 1, true, true, false, true, false};
+static const sph_stage leaps = {1, 0, 0, 0.5, 1, false, true, true, true, false};
+static const sph_stage looks = {0, 0, 0, 0, 0, false, true, false, false, true};
 /* Wickramarachchi 3.85, mean of 3.91 */
-static const sph_stage half_way = {0.5, 0, 0.5, 0.5, 0.5, false, false, false, false};
+static const sph_stage half_way = {0.5, 0, 0.5, 0.5, 0.5, false, false, false, false, false};
 
 /* ---- stages: passes that only say where the next sort goes ---- */
 
@@ -78,6 +79,14 @@ static const sph_pass pass_begin_second = {"begin second stage", NULL, NULL, beg
 static sph_status end_second(sph_sim *sim) { return go_to(sim, 1); }
 static const sph_pass pass_end_second = {"end second stage", NULL, NULL, end_second, NULL};
 
+/* Runge-Kutta: where particles are at the end, for the density there */
+static sph_status begin_look(sph_sim *sim)
+{
+    sph_begin_sort(sim, sim->dst, spare(sim, sim->cur, sim->dst), sim->next.count, true, &looks);
+    return SPH_OK;
+}
+static const sph_pass pass_begin_look = {"begin look", NULL, NULL, begin_look, NULL};
+
 /* ---- what modules do to particles, where nothing is summed ---- */
 
 /* wherever fields have advanced: back to where laws keep them */
@@ -111,12 +120,13 @@ static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
     sph_carry_fields(sim, s);
-    restrain(sim, s);
+    if (!sim->stage->keeps)
+        restrain(sim, s);
     t->work += s.last - s.first;
 }
 static bool carries(const sph_sim *sim)
 {
-    return sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) || (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
+    return sim->stage->keeps || sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) || (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
 }
 static const sph_pass pass_carry = {"carry", sph_local_chunks, carry_chunk, NULL, carries};
 
@@ -189,6 +199,14 @@ static void advance_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 }
 static const sph_pass pass_advance = {"advance", sph_local_chunks, advance_chunk, finished, NULL};
 
+/* the end of a look */
+static void look_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    settle_chunk(sim, chunk, t);
+    sph_check(sim, sph_chunk_span(sim, chunk), t);
+}
+static const sph_pass pass_look = {"settle", sph_local_chunks, look_chunk, NULL, NULL};
+
 /* the end of the first forces */
 static void prime_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
@@ -218,6 +236,9 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
         MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),        \
         MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
 
+/* A density that is summed is of where particles are: Runge-Kutta, which moves them last, sums it once more. */
+#define SUMMED(pass) (SPH_WITH_SUMMATION ? (pass) : NULL)
+
 /* what a step ends with */
 #define END(pass) &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge)
 
@@ -227,21 +248,24 @@ static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, END(pas
 static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_kick)};
 static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
-                           &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance)};
+                           &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),
+                           SUMMED(&pass_begin_look), SUMMED(&sph_pass_count), SUMMED(&sph_pass_scatter),
+                           SUMMED(&pass_carry), DENSITIES, SUMMED(&pass_look)};
+enum { SUMMING = 5 + 3 }; /* those that only summed density needs: what stands in the line above END's */
 
 /* ---- the table ---- */
 
 /* left out: an empty list */
-#define ROW(knob, passes, first, second)                                                                           \
-    {MODULE(knob, (passes)[0]), (knob) ? sizeof(passes) / sizeof *(passes) : 0, MODULE(knob, first),               \
+#define ROW(knob, passes, last, first, second)                                                                     \
+    {MODULE(knob, (passes)[0]), (knob) ? sizeof(passes) / sizeof *(passes) : 0, last, MODULE(knob, first),         \
      MODULE(knob, second)}
 static const sph_integrator integrators[SPH_NO_INTEGRATOR + 1] = {
-    [SPH_PREDICTOR_CORRECTOR] = ROW(SPH_WITH_PREDICTOR_CORRECTOR, predictor_corrector, predicts, stays),
-    [SPH_KICK_DRIFT_KICK] = ROW(SPH_WITH_KICK_DRIFT_KICK, kick_drift_kick, kicks_and_drifts, stays),
-    [SPH_LEAP_FROG] = ROW(SPH_WITH_LEAP_FROG, leap_frog, leaps, stays),
-    [SPH_RUNGE_KUTTA] = ROW(SPH_WITH_RUNGE_KUTTA, runge_kutta, stays, half_way),
-    [SPH_RUNGE_KUTTA_MOMENTUM] = ROW(SPH_WITH_RUNGE_KUTTA_MOMENTUM, runge_kutta, stays, half_way),
-    [SPH_NO_INTEGRATOR] = ROW(true, first_forces, begins, stays),
+    [SPH_PREDICTOR_CORRECTOR] = ROW(SPH_WITH_PREDICTOR_CORRECTOR, predictor_corrector, 0, predicts, stays),
+    [SPH_KICK_DRIFT_KICK] = ROW(SPH_WITH_KICK_DRIFT_KICK, kick_drift_kick, 0, kicks_and_drifts, stays),
+    [SPH_LEAP_FROG] = ROW(SPH_WITH_LEAP_FROG, leap_frog, 0, leaps, stays),
+    [SPH_RUNGE_KUTTA] = ROW(SPH_WITH_RUNGE_KUTTA, runge_kutta, SUMMING, stays, half_way),
+    [SPH_RUNGE_KUTTA_MOMENTUM] = ROW(SPH_WITH_RUNGE_KUTTA_MOMENTUM, runge_kutta, SUMMING, stays, half_way),
+    [SPH_NO_INTEGRATOR] = ROW(true, first_forces, 0, begins, stays),
 };
 
 #undef ROW

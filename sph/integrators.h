@@ -8,6 +8,7 @@
 typedef struct sph_integrator {
     const sph_pass *const *passes; /* null: a pass whose module was left out */
     uint32_t count;
+    uint32_t summing;              /* how many of them, the last, only summed density needs */
     const sph_stage *first;        /* of its first sort */
     const sph_stage *second;       /* of its second sort, if it has one */
 } sph_integrator;

@@ -127,6 +127,7 @@ typedef struct sph_stage {
     bool reflects; /* particles that a mirror face turned are counted: not where the whole step will count them */
     bool resumes;  /* leap-frog: velocities are ahead by half of the last step, and are to be ahead by half of this */
     bool middle;   /* rates are summed first, in the middle of the step, then forces, at its end */
+    bool keeps;    /* nothing is summed but density: all other fields go with their particle as they are */
 } sph_stage;
 struct sph_integrator; /* integrators.h */
 

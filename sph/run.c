@@ -24,7 +24,7 @@ static sph_status load_program(sph_sim *sim, const sph_integrator *g)
 {
     sim->integrator = g;
     sim->passes = 0;
-    for (uint32_t k = 0; k < g->count; k++)
+    for (uint32_t k = 0; k < g->count - (sph_sums_density(&sim->cfg) ? 0 : g->summing); k++)
         if (g->passes[k])
             sim->program[sim->passes++] = g->passes[k];
     SPH_ASSERT(sim->passes <= SPH_MAX_PROGRAM);

@@ -585,7 +585,8 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
                 beforehand. So has the first after a step that failed or was given up, and after a restore.
      a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2
                 for all integrators but the predictor-corrector), as many again with Adami walls, with SPH_CORRECTED
-                or SPH_TOTAL, and with xsph_strain; 1 each for the Shepard filter and summation (2 with Runge-Kutta).
+                or SPH_TOTAL, and with xsph_strain; 1 each for the Shepard filter and summation (2 and 3 with
+                Runge-Kutta).
    Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
@@ -620,7 +621,12 @@ const char *sph_limit_text(uint32_t limit);
 #define sph_time SPH_NAME(time)
 double sph_time(const sph_sim *sim);
 
-/* ---- 8 reading the state ---------------------------------------------------------------------------*/
+/* ---- 8 reading the state ---------------------------------------------------------------------------
+   Of which instant the state is, between steps: places, densities, stresses, strain, damage and velocities of the
+   step's end (leap-frog's velocities of half a step later). Accelerations, and what else the forces were made of (walls'
+   densities and velocities by Adami), of the end, but with Runge-Kutta of the step's middle. Densities that are summed
+   are of the places of the end; with XSPH, but for Runge-Kutta, of where they were before the last dt/2 (u' - u) of
+   XSPH's velocity u; of a particle that was put back, of where it was found. */
 enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL, SPH_ROLE_SOLID, SPH_ROLES };
 typedef struct sph_particle {
     uint32_t id, set, role;

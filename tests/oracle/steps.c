@@ -343,6 +343,8 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
     pass_faces(s);
     s->time += half(dt);
     tell(s, s->time, 0);
+    if (s->cfg.density == SPH_SUMMATION) /* of where they are */
+        find_density(s, number);
 }
 
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
