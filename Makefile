@@ -208,6 +208,7 @@ builds_test_walls   := $(BUILDS)
 builds_test_eos_schemes := $(BUILDS)
 builds_test_time    := 1f 1d 2d
 builds_test_order   := 2d
+builds_test_motions := 1d 2f 2d 3f
 builds_test_mirrors := $(BUILDS)
 builds_test_scenes  := $(BUILDS)
 builds_test_shapes  := $(BUILDS)

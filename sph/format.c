@@ -62,6 +62,7 @@ static const sph_member material_fields[] = {
 static const sph_member group_fields[] = {
     {"moved", "quantum", M_POS, SPH_DIM, AT(sph_group_state, moved)},
     {"velocity", "m/s", M_DOUBLE, SPH_DIM, AT(sph_group_state, vel)},
+    {"lag", "m/s", M_DOUBLE, 2 * SPH_DIM, AT(sph_group_state, lag)},
     {"remove_at", "s", M_TIME, 1, AT(sph_group_state, remove_at)},
     {"removed", "1", M_U32, 1, AT(sph_group_state, removed)},
 };

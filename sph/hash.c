@@ -28,6 +28,8 @@ uint64_t sph_hash(const sph_sim *sim)
         h = sph_mix_double(sph_mix(h, s->group[g].removed), s->group[g].remove_at);
         for (int k = 0; k < SPH_DIM; k++)
             h = sph_mix_double(sph_mix(h, (uint64_t)s->group[g].moved[k]), s->group[g].vel[k]);
+        for (int k = 0; k < 2 * SPH_DIM && sim->has_adami && sim->group[g].motion; k++)
+            h = sph_mix_double(h, s->group[g].lag[k / SPH_DIM][k % SPH_DIM]);
     }
     /* without books all are 0, and count as they did when there were four */
     const uint32_t powers = sph_keeps_books(&sim->cfg) ? SPH_POWERS : POWER_BODY + 1;

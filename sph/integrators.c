@@ -17,13 +17,14 @@ SPH_OBJECT(integrators)
 
 /* ---- what stages do at their sorts ---- */
 
-/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle, keeps. Kick-drift-kick and leap-frog take
-   fields to the middle of the step by the rates of the last middle: to second order there, enough for rates that
-   depend on them. Leap-frog's kick and bend follow from the last step (move.c). */
+/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle, keeps. Kick-drift-kick and leap-frog
+   take fields to the middle of the step by the rates of the last middle: to second order there, enough for rates that
+   depend on them. Leap-frog's kick and bend follow from the last step (move.c); before first forces it falls back. */
 static const sph_stage stays = {0, 0, 0, 0, 0, false, true, false, false, false};
 static const sph_stage begins = {0, 0, 0, 0, 1, false, true, false, false, false};
-static const sph_stage falls_back = {0, 0, 0, 0, 1, false, true, true, false, false}; /* leap-frog, before first forces */
-static const sph_stage predicts = {1, 0.5, 1, 1, 1, true, true, false, false, false}; /* Gray 2001 eqs 2.26, 2.27, 2.29 */
+static const sph_stage falls_back = {0, 0, 0, 0, 1, false, true, true, false, false};
+/* Gray 2001 eqs 2.26, 2.27, 2.29 */
+static const sph_stage predicts = {1, 0.5, 1, 1, 1, true, true, false, false, false};
 static const sph_stage kicks_and_drifts = {1, 0.5, 0.5, 0.5, 1, true, true, false, true, false};
 static const sph_stage leaps = {1, 0, 0, 0.5, 1, false, true, true, true, false};
 static const sph_stage looks = {0, 0, 0, 0, 0, false, true, false, false, true};
@@ -126,7 +127,8 @@ static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 }
 static bool carries(const sph_sim *sim)
 {
-    return sim->stage->keeps || sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) || (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
+    return sim->stage->keeps || sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) ||
+           (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
 }
 static const sph_pass pass_carry = {"carry", sph_local_chunks, carry_chunk, NULL, carries};
 

@@ -62,11 +62,13 @@ typedef struct sph_group {
     sph_motion motion;
     void *ctx;
 } sph_group;
+#define SPH_NO_LAG 1e300
 /* where a group is now */
 typedef struct sph_group_state {
     double remove_at;           /* s; infinite: never */
     double vel[SPH_DIM];        /* m/s */
-    sph_pos moved[SPH_DIM];     /* displacement, quanta */
+    sph_pos moved[SPH_DIM];     /* displacement, quanta; along a periodic axis within half a domain, round it */
+    double lag[2][SPH_DIM];     /* m/s, its velocity filtered once and twice (groups.c); SPH_NO_LAG: not yet known */
     uint32_t removed;
 } sph_group_state;
 
@@ -453,14 +455,22 @@ SPH_INLINE double sph_work_of(const sph_sim *sim, double before, double power)
     return middle ? sim->dt * power : 0.5 * sim->dt * (before + power);
 }
 
-/* displacement of a group, quanta; and how far it goes in this step until the stage's moment */
+/* displacement of a group, quanta; the shorter of two ways round a periodic axis, for one of less than 3/2; and how far it goes in this step until the stage's moment */
 SPH_INLINE sph_pos sph_wall_moved(const sph_sim *sim, const sph_set *s, uint32_t axis)
 {
     return SPH_HAS_GROUPS ? sim->next.group[s->group].moved[axis] : 0;
 }
+SPH_INLINE int64_t sph_round_domain(const sph_sim *sim, uint32_t axis, int64_t d)
+{
+    const int64_t whole = sim->grid.extent[axis];
+    if (!SPH_IS(sim->cfg.face[axis][0], PERIODIC))
+        return d;
+    return 2 * d > whole ? d - whole : 2 * d < -whole ? d + whole : d;
+}
 SPH_INLINE int64_t sph_wall_step(const sph_sim *sim, const sph_set *s, uint32_t axis)
 {
-    return SPH_HAS_GROUPS ? (int64_t)sph_wall_moved(sim, s, axis) - sim->now.group[s->group].moved[axis] : 0;
+    const int64_t to = sph_wall_moved(sim, s, axis);
+    return SPH_HAS_GROUPS ? sph_round_domain(sim, axis, to - sim->now.group[s->group].moved[axis]) : 0;
 }
 /* its velocity: in the middle of a step that by which it goes from the step's beginning to its end */
 SPH_INLINE double sph_wall_velocity(const sph_sim *sim, const sph_set *s, uint32_t axis)

@@ -19,6 +19,21 @@ static double plane_of(const sph_candidates *r)
     return plane;
 }
 
+/* how much further along the normal the face stands of which wall particle j is a part: a wall that has moved round a
+   periodic axis has one on either side of the seam (m) */
+static double round_of(const sph_candidates *r, uint32_t j)
+{
+    const sph_sim *sim = r->sim;
+    double further = 0;
+    for (uint32_t k = 0; k < SPH_DIM && SPH_WITH_MOVING_WALLS; k++) {
+        const int64_t d = (int64_t)r->b->pos[k][r->first + j] - sph_wall_moved(sim, r->set, k) -
+                          (int64_t)(r->set->origin[k] / sim->grid.quantum);
+        if (r->set->normal[k] != 0)
+            further += r->set->normal[k] * (double)(d - sph_round_domain(sim, k, d)) * sim->grid.quantum;
+    }
+    return further;
+}
+
 void sph_load_mirror(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const bool mirror = SPH_IS(r->set->kind, WALL_GHOST);
@@ -35,7 +50,8 @@ void sph_load_mirror(const sph_candidates *r, sph_real *to, uint32_t row)
             const bool own = !mirror && r->set->no_slip; /* the velocity that a pass has found for it */
             u0[k * row + j] = own ? r->b->vel[k][r->first + j] * r->im->flip[k] : r->tile->v[k][r->at + j];
         }
-        depth[j] = mirror ? (sph_real)(plane - x > 0 ? plane - x : 0) : 0;
+        const double deep = mirror ? plane + round_of(r, j) - x : 0;
+        depth[j] = (sph_real)(deep > 0 ? deep : 0);
         vis[j] = r->set->no_slip ? 1 : 0;
     }
 }

@@ -57,7 +57,9 @@ static bool check_scalars(sph_stream *s, const sph_sim *sim, const sph_run *r)
     for (uint32_t g = 0; g < sim->groups; g++)
         for (int k = 0; k < SPH_DIM; k++) {
             const int64_t moved = n->group[g].moved[k], most = 2 * (int64_t)sim->grid.extent[k];
-            if (moved < -most || moved > most || !(sph_abs(n->group[g].vel[k]) < 1e15))
+            const double(*lag)[SPH_DIM] = n->group[g].lag;
+            const bool fine = (sph_abs(lag[0][k]) < 1e15 && sph_abs(lag[1][k]) < 1e15) || lag[0][k] >= SPH_NO_LAG;
+            if (moved < -most || moved > most || !(sph_abs(n->group[g].vel[k]) < 1e15) || !fine)
                 return sph_stream_refuse(s, SPH_DUMP_CORRUPT, "group", "as a motion may be", (double)moved);
         }
     return true;

@@ -59,6 +59,8 @@ uint32_t sph_setup_add_group(sph_sim *sim, sph_motion motion, void *ctx)
     sim->group[group] = (sph_group){motion, ctx};
     memset(&sim->now.group[group], 0, sizeof sim->now.group[group]);
     sim->now.group[group].remove_at = 1e300;
+    for (int k = 0; k < 2 * SPH_DIM; k++)
+        sim->now.group[group].lag[k / SPH_DIM][k % SPH_DIM] = SPH_NO_LAG;
     return group;
 }
 

@@ -38,7 +38,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 4u /* 1: without solids; 2: without sponges; 3: before `rise`, with fewer books */
+#define SPH_VERSION 5u /* 1: without solids; 2: without sponges; 3: before `rise`, with fewer books; 4: before `lag` */
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
@@ -367,9 +367,13 @@ typedef struct sph_fluid {
 sph_status sph_add_fluid(sph_sim *sim, const sph_fluid *fluid, uint32_t *set); /* fluid null: all defaults */
 
 /* Displacement (m) and velocity (m/s) at time t (s) of something that moves as it is told: a wall, a held set. Must
-   depend on its arguments only. Finite, within two domain lengths, and less than one from step to step; otherwise the
-   step fails (NOT_FINITE, MOVED_TOO_FAR). Beside Adami's walls it is also asked for the velocity at times h/c0 before
-   (not before 0) and after: their acceleration is the mean between, so that a velocity may jump. */
+   depend on its arguments only. Asked for times of the step under way: its beginning, middle and end, never beyond.
+   Finite, within two domain lengths, and less than one from step to step; otherwise the step fails (NOT_FINITE,
+   MOVED_TOO_FAR). Along a periodic axis any distance will do: a wall comes in again on the other side, and where it
+   stands goes there the shorter way round.
+   The acceleration that Adami's walls push with follows from the velocities of the steps so far, over a time of
+   tau = h/(2 c0), so that a velocity may jump: with the velocity filtered once and twice, tau du/dt = v - u,
+   tau dw/dt = u - w, linear between what was told at a step's ends, it is (2 v - 3 u + w)/tau. */
 typedef void (*sph_motion)(void *ctx, double t, double *displacement, double *velocity);
 
 /* A motion given as a table, linear between rows; before the first and after the last row there is rest. Pass
@@ -623,8 +627,8 @@ double sph_time(const sph_sim *sim);
 
 /* ---- 8 reading the state ---------------------------------------------------------------------------
    Of which instant the state is, between steps: places, densities, stresses, strain, damage and velocities of the
-   step's end (leap-frog's velocities of half a step later). Accelerations, and what else the forces were made of (walls'
-   densities and velocities by Adami), of the end, but with Runge-Kutta of the step's middle. Densities that are summed
+   step's end (leap-frog's velocities of half a step later). Accelerations, and what else the forces were made of
+   (walls' densities and velocities by Adami), of the end, but with Runge-Kutta of the step's middle. Densities that are summed
    are of the places of the end; with XSPH, but for Runge-Kutta, of where they were before the last dt/2 (u' - u) of
    XSPH's velocity u; of a particle that was put back, of where it was found. */
 enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL, SPH_ROLE_SOLID, SPH_ROLES };

@@ -454,6 +454,8 @@ static double pushed_by_a_table(uint32_t integrator, double cut, double *force)
         must(sim, sph_step_to(sim, 0.01));
     if (cut > 0)
         must(sim, sph_step_to(sim, 0.01 + cut));
+    if (integrator >= SPH_RUNGE_KUTTA) /* whose forces are of a step's middle: of the first that lies behind the jump */
+        must(sim, sph_step_to(sim, 0.01 + c.dt));
     *force = 0;
     for (uint32_t i = 0; i < sph_count(sim); i++) {
         assert_int_equal(sph_get(sim, i, &p), SPH_OK);
@@ -472,7 +474,7 @@ static void a_jump_of_a_wall_gives_the_same_push_however_a_step_is_cut(void **st
 {
     (void)state;
     for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
-        const double within = i == SPH_PREDICTOR_CORRECTOR ? 0.06 : 0.005;
+        const double within = i == SPH_PREDICTOR_CORRECTOR ? 0.01 : 0.005;
         double whole, first, second;
         const double a = pushed_by_a_table(i, 0, &whole), b = pushed_by_a_table(i, 1e-6, &first),
                      d = pushed_by_a_table(i, 1e-8, &second);

@@ -2,6 +2,7 @@
 /* adami.c: walls that take their pressure, and for no slip their velocity, from the bodies near them (Adami, Hu & Adams
    2012 eqs 22, 23, 27), W = W(x_w - x_f), sums over bodies f:
      p_w = (sum p_f W + (g - a_w) . sum rho_f (x_w - x_f) W)/sum W        v_w = 2 v_wall - sum v_f W/sum W
+   with the acceleration a_w of sph.h (sph_motion), 0 at first; steps.c has it.
    The density of the wall is that which its equation of state has at p_w (with the floor, if there is one), kept
    between half and twice rho0; a wall that sees nobody is at rest density. */
 #include "oracle.h"
@@ -31,8 +32,8 @@ static void extrapolate(o_scene *s, o_particle *w)
     o_close(s, "a wall that is nearly dry", covered, 1e-6 * set->rho0, 1e-3 * set->rho0);
     const bool wet = covered > 1e-6 * set->rho0;
     for (int k = 0; k < SPH_DIM; k++) {
-        p += (s->cfg.gravity[k] - set->accel[k]) * column[k];
-        p_scale += fabs(s->cfg.gravity[k] - set->accel[k]) * column_scale;
+        p += (s->cfg.gravity[k] - set->push[k]) * column[k];
+        p_scale += fabs(s->cfg.gravity[k] - set->push[k]) * column_scale;
         w->wall_v[k] = (o_sum){set->velocity[k], fabs(set->velocity[k])};
         if (wet) {
             const double mean = v[k] / cover;

@@ -145,7 +145,7 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
             o->start[a] = m->v[a];
             o->accel[a] = m->a[a];
         }
-        o->velocity[a] = o->start[a] + o->accel[a] * t;
+        o->velocity[a] = o->once[a] = o->twice[a] = o->start[a] + o->accel[a] * t;
         o->moved[a] = o->start[a] * t + 0.5 * o->accel[a] * t * t;
         o->origin[a] = s->origin[a] + sim->cfg.lo[a] + o->moved[a];
         o->normal[a] = s->normal[a];

@@ -41,6 +41,7 @@ typedef struct o_set {
     double origin[3], normal[3], tangent[3];  /* of walls: a point of the face (m), into the fluid, along the face */
     double start[3], accel[3];                /* motion v t + a t^2/2 of what moves as it is told */
     double velocity[3], moved[3];             /* m/s, m: its velocity and displacement now */
+    double once[3], twice[3], push[3];        /* m/s, its velocity filtered; m/s^2, the acceleration of Adami's walls */
     double shear, yield, hardening, crack;    /* Pa, Pa, Pa, 1/s */
     uint32_t body, held;
 } o_set;

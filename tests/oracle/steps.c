@@ -83,7 +83,35 @@ void o_begin_steps(o_scene *s, uint32_t room)
 
 /* ---- what moves as it is told ---- */
 
-/* places at time t; velocities, and accelerations for Adami, as given: at t, or the mean of a step before t */
+/* Accelerations of Adami's walls at time t of the step that began at t0, from what had been filtered till then, with
+   velocities on a line between; by the classical Runge-Kutta rule in small steps. To keep: it is the step's end. */
+static void filter(o_scene *s, double t0, double t, bool keep)
+{
+    enum { PARTS = 400 };
+    const double tau = 0.5 * s->cfg.smoothing_length / s->cfg.sound_speed, d = (t - t0) / PARTS;
+    for (uint32_t k = 0; k < s->sets; k++)
+        for (int a = 0; a < SPH_DIM; a++) {
+            o_set *set = &s->set[k];
+            double u = set->once[a], w = set->twice[a];
+            for (int part = 0; part < PARTS; part++) {
+                double du[5] = {0}, dw[5] = {0};
+                for (int g = 1; g < 5; g++) {
+                    const double share = g == 1 ? 0 : g == 4 ? 1 : 0.5;
+                    const double v = set->start[a] + set->accel[a] * (t0 + (part + share) * d);
+                    const double uu = u + share * d * du[g - 1], ww = w + share * d * dw[g - 1];
+                    du[g] = (v - uu) / tau;
+                    dw[g] = (uu - ww) / tau;
+                }
+                u += d * (du[1] + 2 * du[2] + 2 * du[3] + du[4]) / 6;
+                w += d * (dw[1] + 2 * dw[2] + 2 * dw[3] + dw[4]) / 6;
+            }
+            set->push[a] = (2 * (set->start[a] + set->accel[a] * t) - 3 * u + w) / tau;
+            if (keep)
+                set->once[a] = u, set->twice[a] = w;
+        }
+}
+
+/* places at time t; velocities as given: at t, or the mean of a step before t */
 static void tell(o_scene *s, double t, double dt_of_mean)
 {
     for (uint32_t k = 0; k < s->sets; k++)
@@ -236,6 +264,7 @@ static void predict_correct(o_scene *s, uint32_t number, double dt)
     const bool foresees = !o_has_solids(s);
     const double foresight = dt < 2 * last ? dt * (dt / last) : 2 * dt;
     tell(s, s->time + dt, 0);
+    filter(s, s->time, s->time + dt, true);
     go(s, dt, half(dt * dt), dt, dt);
     for (uint32_t i = 0; i < s->n; i++)
         if (foresees && evolves(s, &s->own[i]))
@@ -268,6 +297,7 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
     const bool leaps = s->cfg.integrator == SPH_LEAP_FROG;
     const double kick = leaps ? half(dt - last) : half(dt);
     tell(s, s->time + dt, dt);
+    filter(s, s->time, s->time + half(dt), false);
     go(s, dt, dt * kick, kick, half(dt));
     for (uint32_t i = 0; i < s->n; i++) /* rates: places of the middle */
         for (int k = 0; k < SPH_DIM; k++)
@@ -289,6 +319,7 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
             if (!is_held(s, p, k))
                 p->v[k] += half(dt) * turned(b, k, b->a[k]);
     }
+    filter(s, s->time, s->time + dt, true);
     s->time += dt;
     tell(s, s->time, 0);
     find_density(s, number);
@@ -310,12 +341,15 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
 
 static void runge_kutta(o_scene *s, uint32_t number, double dt)
 {
+    const double begun = s->time;
+    filter(s, begun, begun, false);
     find_density(s, number);
     o_forces(s);
     remember_rates(s);
     remember_state(s);
     s->time += half(dt);
     tell(s, s->time, 0);
+    filter(s, begun, s->time, false);
     go(s, half(dt), 0, half(dt), half(dt));
     find_density(s, number);
     o_forces(s);
@@ -343,6 +377,7 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
     pass_faces(s);
     s->time += half(dt);
     tell(s, s->time, 0);
+    filter(s, begun, s->time, true);
     if (s->cfg.density == SPH_SUMMATION) /* of where they are */
         find_density(s, number);
 }
