@@ -47,7 +47,7 @@ uint32_t sph_inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i, do
         if (!is_region(sim, s))
             continue;
         double x[SPH_DIM];
-        for (uint32_t k = 0; k < SPH_DIM; k++) { /* as the nearest of the wall's pictures round a periodic axis sees it */
+        for (uint32_t k = 0; k < SPH_DIM; k++) { /* from the nearest of the wall's pictures round a periodic axis */
             const double origin = s->origin[k] / sim->grid.quantum;
             const int64_t q = (int64_t)b->pos[k][i] - sph_wall_moved(sim, s, k), face = (int64_t)origin;
             x[k] = (double)(face + sph_round_domain(sim, k, q - face)) * sim->grid.quantum;
@@ -122,8 +122,10 @@ static void mark_near(const sph_sim *sim, const sph_set *s, sph_span span, uint8
         const int64_t moved = sph_wall_moved(sim, s, k);
         pos[k] = sim->buf[sim->dst].pos[k];
         const bool round = SPH_WITH_MOVING_WALLS && moved != 0 && SPH_IS(sim->cfg.face[k][0], PERIODIC);
-        lo[k] = round ? 0 : SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, s->low[k] + moved) : s->low[k];
-        hi[k] = round ? sim->grid.extent[k] : SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, s->high[k] + moved) : s->high[k];
+        lo[k] = SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, s->low[k] + moved) : s->low[k];
+        lo[k] = round ? 0 : lo[k];
+        hi[k] = SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, s->high[k] + moved) : s->high[k];
+        hi[k] = round ? sim->grid.extent[k] : hi[k];
     }
     for (uint32_t i = span.first; i < span.last; i++) {
         int in = 1;

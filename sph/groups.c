@@ -9,7 +9,8 @@
 
    where a1 is dv/dt filtered, and a2 filtered once more. Filtered once is s/(1 + tau s), twice s/(1 + tau s)^2 of a
    velocity that goes as exp(s t): together s (1 + 2 tau s)/(1 + tau s)^2 = s (1 - tau^2 s^2 + ...), so that a smooth
-   motion has its acceleration to second order in tau, and one that jumps by V gives the impulse V however a step is cut.
+   motion has its acceleration to second order in tau, and one that jumps by V gives the impulse V however a step is
+   cut.
    Over a step D = z tau, with E = exp(-z), F = (1 - E)/z, and v going from v0 to v1, exactly
 
      u1 = v1 - (v1 - v0) F + (u0 - v0) E
@@ -55,7 +56,7 @@ static void find_acceleration(sph_sim *sim, uint32_t g, double t)
     }
 }
 
-/* a displacement less whole rounds of a periodic axis: at most half of one. To 2^53 rounds; beyond, 1e300: not finite */
+/* a displacement less whole rounds of a periodic axis: at most half of one. Beyond 2^53 rounds: 1e300, refused */
 static double within_a_round(const sph_sim *sim, uint32_t k, double x)
 {
     const double whole = (double)sim->grid.extent[k] * sim->grid.quantum, rounds = x / whole;

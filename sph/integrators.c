@@ -17,9 +17,10 @@ SPH_OBJECT(integrators)
 
 /* ---- what stages do at their sorts ---- */
 
-/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle, keeps. Kick-drift-kick and leap-frog
-   take fields to the middle of the step by the rates of the last middle: to second order there, enough for rates that
-   depend on them. Leap-frog's kick and bend follow from the last step (move.c); before first forces it falls back. */
+/* What the sorts do: drift, bend, kick, rate; at; damps, reflects, resumes, middle, keeps. Kick-drift-kick and
+   leap-frog take fields to the middle of the step by the rates of the last middle: to second order there, enough for
+   rates that depend on them. Leap-frog's kick and bend follow from the last step (move.c); before first forces it falls
+   back. */
 static const sph_stage stays = {0, 0, 0, 0, 0, false, true, false, false, false};
 static const sph_stage begins = {0, 0, 0, 0, 1, false, true, false, false, false};
 static const sph_stage falls_back = {0, 0, 0, 0, 1, false, true, true, false, false};

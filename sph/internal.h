@@ -455,7 +455,8 @@ SPH_INLINE double sph_work_of(const sph_sim *sim, double before, double power)
     return middle ? sim->dt * power : 0.5 * sim->dt * (before + power);
 }
 
-/* displacement of a group, quanta; the shorter of two ways round a periodic axis, for one of less than 3/2; and how far it goes in this step until the stage's moment */
+/* displacement of a group, quanta; the shorter way round a periodic axis, of one that is less than 3/2 of it long; and
+   how far a group goes in this step until the stage's moment */
 SPH_INLINE sph_pos sph_wall_moved(const sph_sim *sim, const sph_set *s, uint32_t axis)
 {
     return SPH_HAS_GROUPS ? sim->next.group[s->group].moved[axis] : 0;

@@ -290,6 +290,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_TOTAL 64u   /* SPH_TOTAL */
 #define SPH_USE_YIELD 128u
 #define SPH_USE_DAMAGE 256u /* flaws: 4 bytes each, to be added */
+#define SPH_USE_MIRRORS 512u /* symmetry or no-slip mirror faces */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
@@ -298,7 +299,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_YIELD) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? SPH_REAL_ : 0u))
 #define SPH_STATE_BYTES_ ((2u * SPH_DIM + SPH_DIM + 2u) * (SPH_DOUBLE ? 8u : 4u) + 4u + 1u)
 #define SPH_PARTICLE_BYTES(use)                                                                             \
-    (SPH_STATE_BYTES_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) + (SPH_HAS_MIRRORS ? 1u : 0u) +             \
+    (SPH_STATE_BYTES_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) + (((use)&SPH_USE_MIRRORS) ? 1u : 0u) +     \
      (((use) & (SPH_USE_RUNGE_KUTTA | SPH_USE_SOLID)) ? 0u : 2u * SPH_REAL_) + /* predictor-corrector */    \
      (((use)&SPH_USE_XSPH) ? SPH_DIM * (SPH_DOUBLE ? 8u : 4u) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +  \
      (((use)&SPH_USE_BOOKS) ? 7u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
@@ -628,9 +629,9 @@ double sph_time(const sph_sim *sim);
 /* ---- 8 reading the state ---------------------------------------------------------------------------
    Of which instant the state is, between steps: places, densities, stresses, strain, damage and velocities of the
    step's end (leap-frog's velocities of half a step later). Accelerations, and what else the forces were made of
-   (walls' densities and velocities by Adami), of the end, but with Runge-Kutta of the step's middle. Densities that are summed
-   are of the places of the end; with XSPH, but for Runge-Kutta, of where they were before the last dt/2 (u' - u) of
-   XSPH's velocity u; of a particle that was put back, of where it was found. */
+   (walls' densities and velocities by Adami), of the end, but with Runge-Kutta of the step's middle. Densities that
+   are summed are of the places of the end; with XSPH, but for Runge-Kutta, of where they were before the last
+   dt/2 (u' - u) of XSPH's velocity u; of a particle that was put back, of where it was found. */
 enum { SPH_ROLE_FLUID, SPH_ROLE_GHOST, SPH_ROLE_FORCE_WALL, SPH_ROLE_SOLID, SPH_ROLES };
 typedef struct sph_particle {
     uint32_t id, set, role;

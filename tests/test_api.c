@@ -145,10 +145,10 @@ static void a_module_that_is_not_chosen_adds_nothing_to_the_arena(void **state)
     /* the predictor-corrector keeps how the rate of density rises */
     ADDS(integrator, SPH_KICK_DRIFT_KICK, (size_t)0 - 2 * real);
     ADDS(integrator, SPH_LEAP_FROG, (size_t)0 - 2 * real);
-    ADDS(face[0][0], SPH_SYMMETRY, 0);
-    ADDS(face[0][1], SPH_MIRROR_NO_SLIP, 0);
     ADDS(damping, 0.9, 0);
     /* choices that keep something: exactly that */
+    ADDS(face[0][0], SPH_SYMMETRY, array_bytes(1)); /* which of their axes was turned */
+    ADDS(face[0][1], SPH_MIRROR_NO_SLIP, array_bytes(1));
     ADDS(xsph, 0.5, 2 * SPH_DIM * real);
     ADDS(shepard_every, 10, real);
     ADDS(density, SPH_SUMMATION, real);
