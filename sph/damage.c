@@ -68,39 +68,62 @@ static sph_real root_of(sph_real x)
     return x > 0 ? (sph_real)sph_pow((double)x, 1.0 / 3) : 0;
 }
 
-/* energy that damage has a share in */
-static double held_in(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+/* D^(1/DIM) of particle i of b, dt later */
+static sph_real grown_root(const sph_sim *sim, const sph_buffer *b, uint32_t i, sph_real dt)
 {
-    const sph_energy e = sph_energy_of(sim, b, i);
-    return e.elastic + e.internal;
+    const sph_set *set = &sim->set[b->set[0][i]];
+    const uint32_t id = b->id[0][i], from = sim->flaw_start[id], flaws = sim->flaw_start[id + 1] - from;
+    const sph_real root = b->damage[0][i];
+    if (flaws == 0 || !(root < 1))
+        return root;
+    const sph_real strain = flaw_strain(sim, set, b, i, sph_whole_of(b, i));
+    uint32_t active = 0;
+    while (active < flaws && (sph_real)sim->flaw[from + active] < strain)
+        active++;
+    const sph_real most = active == flaws ? 1 : root_of((sph_real)active / (sph_real)flaws);
+    if (root >= most) /* also without any active flaw */
+        return root;
+    const sph_real grown = root + dt * (sph_real)sph_material_of(sim, set)->crack_rate * (sph_real)active;
+    return grown < most ? grown : most;
 }
 
-void sph_grow_damage(const sph_sim *sim, sph_span s, double *books)
+/* Of a step's end the forces are made with the damage of that end: so it grows before them, by what the strain was at
+   the step's beginning. Grown behind them it would lag by a step, and all fields be of first order. */
+void sph_grow_damage(const sph_sim *sim, sph_span s, sph_real dt)
 {
-    const sph_buffer *b = &sim->buf[sim->dst];
-    const uint32_t *id = b->id[0]; /* the particle's own by now */
-    if (!sph_damages(&sim->cfg))
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const uint32_t *at = sph_source_index(sim);
+    if (!sph_damages(&sim->cfg) || !(dt > 0))
         return;
-    for (uint32_t i = s.first; i < s.last; i++) {
-        if (b->set[0][i] == SPH_DEAD || !sph_is_solid(&sim->set[b->set[0][i]]) || !(b->damage[0][i] < 1))
-            continue;
-        const sph_set *set = &sim->set[b->set[0][i]];
-        const uint32_t from = sim->flaw_start[id[i]], flaws = sim->flaw_start[id[i] + 1] - from;
-        if (flaws == 0)
-            continue;
-        const sph_real root = b->damage[0][i], damage = SPH_DIM == 3 ? root * root * root : root * root;
-        const sph_real strain = flaw_strain(sim, set, b, i, 1 - damage);
-        uint32_t active = 0;
-        while (active < flaws && (sph_real)sim->flaw[from + active] < strain)
-            active++;
-        const sph_real most = active == flaws ? 1 : root_of((sph_real)active / (sph_real)flaws);
-        if (root >= most) /* also without any active flaw */
-            continue;
-        const sph_real grown = root + (sph_real)(sim->dt * sph_material_of(sim, set)->crack_rate) * (sph_real)active;
-        const double held = SPH_WITH_BOOKS && books ? held_in(sim, b, i) : 0;
-        b->damage[0][i] = grown < most ? grown : most;
-        if (SPH_WITH_BOOKS && books)
-            books[JUMP_RELEASED] += held - held_in(sim, b, i);
-    }
+    for (uint32_t i = s.first; i < s.last; i++)
+        if (b->set[0][i] != SPH_DEAD && sph_is_solid(&sim->set[b->set[0][i]]))
+            b->damage[0][i] = grown_root(sim, o, at[i], dt);
+}
+
+/* energy that damage has a share in, of which 1 - D is left, J */
+static double shared_energy(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const sph_set *set = &sim->set[b->set[0][i]];
+    const double mu = sph_material_of(sim, set)->shear, d = (double)b->rho[0][i];
+    const double x = (double)b->stress[0][i], y = (double)b->stress[SPH_DIM > 1][i];
+    double w = x * x + y * y + (x + y) * (x + y);
+    for (int k = 2; k < SPH_NS; k++)
+        w += 2 * (double)b->stress[k][i] * (double)b->stress[k][i];
+    const double tension = sph_pressure(sim, set, d) < 0 ? sph_eos_energy(set->eos, (double)set->b_r, set->rho0, d, false)
+                                                         : 0;
+    return set->mass * (tension + (mu > 0 ? w / (4 * mu * set->rho0) : 0));
+}
+
+void sph_book_damage(const sph_sim *sim, sph_span s, double *books)
+{
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
+    const uint32_t *at = sph_source_index(sim);
+    if (!sph_damages(&sim->cfg) || !books)
+        return;
+    for (uint32_t i = s.first; i < s.last; i++)
+        if (b->set[0][i] != SPH_DEAD && sph_is_solid(&sim->set[b->set[0][i]]) &&
+            b->damage[0][i] > o->damage[0][at[i]]) /* the trapezoidal rule */
+            books[JUMP_RELEASED] += 0.5 * (shared_energy(sim, o, at[i]) + shared_energy(sim, b, i)) *
+                                    (double)(sph_whole_of(o, at[i]) - sph_whole_of(b, i));
 }
 #endif

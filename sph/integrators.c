@@ -97,15 +97,22 @@ static void restrain(const sph_sim *sim, sph_span s)
     if (SPH_HAS_YIELD)
         sph_yield(sim, s);
 }
+/* wherever fields were taken from src, to be those of so much later: what laws make grow */
+static void grow(const sph_sim *sim, sph_span s, sph_real share)
+{
+    restrain(sim, s);
+    if (SPH_HAS_DAMAGE)
+        sph_grow_damage(sim, s, share * (sph_real)sim->dt);
+}
 
 /* when all of a particle has advanced, at a step's end */
 static void finish(sph_sim *sim, uint32_t chunk, sph_span s, sph_thread *t)
 {
     double *const books = SPH_WITH_BOOKS ? sph_open_books(sim, chunk) : NULL;
     (void)chunk;
-    sph_settle(sim, s);
     if (SPH_HAS_DAMAGE)
-        sph_grow_damage(sim, s, books);
+        sph_book_damage(sim, s, books);
+    sph_settle(sim, s);
     if (SPH_HAS_WALLS)
         sph_cross_walls(sim, s, t, books);
     sph_check(sim, s, t);
@@ -123,7 +130,7 @@ static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_span s = sph_chunk_span(sim, chunk);
     sph_carry_fields(sim, s);
     if (!sim->stage->keeps)
-        restrain(sim, s);
+        grow(sim, s, sim->stage->rate);
     t->work += s.last - s.first;
 }
 static bool carries(const sph_sim *sim)
@@ -151,7 +158,7 @@ static void density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_span s = sph_chunk_span(sim, chunk);
     sph_to_the_end(sim, s);
     sph_retake_fields(sim, s);
-    restrain(sim, s);
+    grow(sim, s, 1);
     t->work += s.last - s.first;
 }
 static sph_status at_the_end(sph_sim *sim)
@@ -197,7 +204,7 @@ static void advance_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     for (uint32_t i = s.first; i < s.last; i++)
         sph_runge_kutta(sim, i, t);
     sph_displace_again(sim, s);
-    restrain(sim, s);
+    grow(sim, s, 1);
     finish(sim, chunk, s, t);
 }
 static const sph_pass pass_advance = {"advance", sph_local_chunks, advance_chunk, finished, NULL};

@@ -10,9 +10,12 @@
 #define sph_yield SPH_NAME(yield_)
 void sph_yield(const sph_sim *sim, sph_span s);
 
-/* damage.c: grows damage over dt; ids are the particles' own. books: a chunk's row of the books, or null */
+/* damage.c, before a stage settles: damage of src grows over dt into dst; what that let go of, a step from src to dst,
+   into a chunk's row of the books, or null */
 #define sph_grow_damage SPH_NAME(grow_damage_)
-void sph_grow_damage(const sph_sim *sim, sph_span s, double *books);
+void sph_grow_damage(const sph_sim *sim, sph_span s, sph_real dt);
+#define sph_book_damage SPH_NAME(book_damage_)
+void sph_book_damage(const sph_sim *sim, sph_span s, double *books);
 
 /* crossing.c: the policy for particles that are found inside a wall, after they moved */
 #define sph_cross_walls SPH_NAME(cross_walls_)

@@ -11,7 +11,8 @@
      Runge-Kutta          forces at t; all of it half a step on; forces there; x' = x + dt (v_h + u_h), and v, rho by a
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
-   where its motion says at each of these times. At the end of a step damage grows, then sponges take. Faces: periodic
+   where its motion says at each of these times. Damage grows with them, by what the strain was at the step's beginning.
+   At the end of a step sponges take. Faces: periodic
    ones let in on the other side; a plane of symmetry takes the mirrored particle instead, with all that it has: place,
    reference position, velocity, stress, and their rates. A no-slip mirror throws it back: what has a direction turns
    along its normal, but the shear stress on the plane, which goes on through it, stays. */
@@ -25,6 +26,7 @@ typedef struct beginning {
     double x[3], v[3], d, rest[3], dev[3][3], plastic;
     double a[3], u[3], rate, dev_rate[3][3]; /* rate: of the excess d, 1/s */
     double rise;
+    double root[2]; /* damage half a step and a step later */
     bool turned[3], mirrored[3]; /* by a mirror since: vectors; tensors too */
 } beginning;
 static beginning *was;
@@ -191,6 +193,18 @@ static double mirrored(const beginning *b, int k, int l, double v)
 
 /* ---- pieces of steps ---- */
 
+static void foresee_damage(o_scene *s, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
+{
+    for (uint32_t i = 0; i < s->n; i++) {
+        float flaw[O_MAX_FLAWS];
+        const o_particle *p = &s->own[i];
+        const bool grows = s->cfg.damage && o_is_solid(s, p);
+        const uint32_t flaws = grows ? flaws_of(p->id, flaw) : 0;
+        for (int k = 0; k < 2; k++)
+            was[i].root[k] = grows ? o_grown_root(s, p, flaw, flaws, half((1 + k) * dt)) : p->root;
+    }
+}
+
 static void restrain(o_scene *s)
 {
     for (uint32_t i = 0; i < s->n; i++) /* yielding starts from what had yielded at the beginning of a whole step */
@@ -215,6 +229,7 @@ static void go(o_scene *s, double drift, double bend, double kick, double rate)
             }
         if (evolves(s, p))
             p->d = b->d + rate * b->rate;
+        p->root = b->root[s->cfg.integrator == SPH_PREDICTOR_CORRECTOR];
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3; l++)
                 p->dev[k][l] = b->dev[k][l] + rate * b->dev_rate[k][l];
@@ -237,6 +252,7 @@ static void go_whole(o_scene *s, double dt)
 {
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
+        p->root = was[i].root[1];
         if (evolves(s, p))
             p->d = was[i].d + dt * p->rate.v / s->set[p->set].rho0;
         for (int k = 0; k < 3; k++)
@@ -386,6 +402,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
 {
     const uint32_t by = s->cfg.integrator;
     remember_state(s);
+    foresee_damage(s, dt, flaws_of);
     if (by == SPH_PREDICTOR_CORRECTOR)
         predict_correct(s, number, dt);
     else if (by == SPH_KICK_DRIFT_KICK || by == SPH_LEAP_FROG)
@@ -396,9 +413,6 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         const double f = exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);
-        float flaw[O_MAX_FLAWS];
-        if (s->cfg.damage && o_is_solid(s, p))
-            p->root = o_grown_root(s, p, flaw, flaws_of(p->id, flaw), dt);
         for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
             if (!is_held(s, p, k))
                 p->v[k] = s->cfg.sponge_velocity[k] + (p->v[k] - s->cfg.sponge_velocity[k]) * f;
