@@ -51,6 +51,8 @@ static void rise_of(const o_scene *s, const o_particle *p, o_sum *o)
     }
     const o_sum rate = s->cfg.density == SPH_SUMMATION ? p->moved_rate : p->rate;
     o_add(o, m * per * rate.v, m * fabs(per) * rate.s);
+    if (s->cfg.density == SPH_SUMMATION)
+        o_add(o, -m * per * p->unseen_rate.v, m * fabs(per) * p->unseen_rate.s);
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
             if (o_is_solid(s, p) && set->shear > 0)

@@ -25,16 +25,19 @@ void o_sum_density(o_scene *s)
     o_refresh(s);
 }
 
-/* how fast the sums change with the places of particles and images: sum m_j (x'_i - x'_j) . grad W */
+/* how fast the sums change with the places of particles and images: sum m_j (x'_i - x'_j) . grad W; and what of it is
+   not of the velocities that powers are of: XSPH's, and a wall's image's along a no-slip mirror */
 void o_sum_rates(o_scene *s)
 {
     for (uint32_t a = 0; a < s->n; a++)
-        for (int k = 0; k < 3; k++)
-            s->own[a].way[k] = o_is_body(s, &s->own[a]) ? s->own[a].v[k] + s->own[a].drift[k].v : s->own[a].wall[k];
+        for (int k = 0; k < 3; k++) {
+            s->own[a].beside[k] = o_is_body(s, &s->own[a]) ? s->own[a].drift[k].v : 0;
+            s->own[a].way[k] = o_is_body(s, &s->own[a]) ? s->own[a].v[k] + s->own[a].beside[k] : s->own[a].wall[k];
+        }
     o_copies(s);
     for (uint32_t a = 0; a < s->n; a++) {
         o_particle *i = &s->own[a];
-        i->moved_rate = (o_sum){0, 0};
+        i->moved_rate = i->unseen_rate = (o_sum){0, 0};
         for (uint32_t b = 0; b < s->m && o_is_body(s, i); b++) {
             const o_particle *j = &s->all[b];
             o_pair p;
@@ -42,7 +45,11 @@ void o_sum_rates(o_scene *s)
                 continue;
             const double v[3] = {i->way[0] - j->way[0], i->way[1] - j->way[1], i->way[2] - j->way[2]};
             const double m = s->set[j->set].mass;
+            double unseen[3];
+            for (int k = 0; k < 3; k++)
+                unseen[k] = i->beside[k] - (o_is_body(s, j) ? j->beside[k] : j->way[k] - j->v[k]);
             o_add(&i->moved_rate, m * p.g * o_dot(v, p.x), m * p.slope * sqrt(o_dot(v, v)));
+            o_add(&i->unseen_rate, m * p.g * o_dot(unseen, p.x), m * p.slope * sqrt(o_dot(unseen, unseen)));
         }
     }
 }

@@ -29,6 +29,7 @@ static void behind(const o_scene *s, o_particle *p, int axis, int side)
     p->normal[axis] = -p->normal[axis];
     p->tangent[axis] = -p->tangent[axis];
     p->way[axis] = -p->way[axis];
+    p->beside[axis] = -p->beside[axis];
     double *const velocity[] = {p->v, p->wall, p->seen, p->smooth};
     for (int k = 0; k < 4; k++)
         for (int l = 0; l < 3; l++)

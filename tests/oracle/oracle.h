@@ -70,11 +70,13 @@ typedef struct o_particle {
     double t_scale;
     double pull[3][3];         /* artificial stress R */
     double way[3];             /* how its place moves: v + xsph, m/s */
+    double beside[3];          /* xsph alone */
     /* results */
     o_sum density;             /* relative excess: summed, filtered, or of a wall */
     o_sum wall_v[3];           /* of an Adami wall without slip */
     o_sum a[3], rate, stress_rate[3][3], drift[3];
     o_sum moved_rate;          /* of summed density: how fast the sum changes as places move */
+    o_sum unseen_rate;         /* the part of it by which places move otherwise than pairs see: in no power (sph.h) */
     o_sum diffused;            /* d(rho)/dt by diffusion */
     o_sum viscous, worked, pushed; /* powers for the books, W/kg */
     o_sum gradient[3][3];      /* sum m_j v_ij (x) K g (weak: m_j/rho_j), of which L is made */
