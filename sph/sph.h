@@ -668,7 +668,12 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
    stays (plastic_work to first order in dt; gravity changed by sph_reconfigure shifts the potential). Without books it
    is what can be summed without them. `unbalanced` is 0 but for DIRECT, the printed continuity forms, WEAK schemes with
    summed density, MIRROR_NO_SLIP, xsph_strain, the drift of XSPH in gravity, and solids, whose Jaumann rate stores
-   S:e/rho0 of the S:e/rho that forces give. */
+   S:e/rho0 of the S:e/rho that forces give.
+   One term is in no power. A summed density changes as places do, drho_i/dt = sum m_j (x'_i - x'_j) . grad W. With XSPH
+   they go with u beside v; and images of moving walls behind MIRROR_NO_SLIP, seen with -v, go along the plane with +v.
+   So the internal energy gains sum m_i (p_i/rho_i^2) sum m_j (u_i - u_j) . grad W besides, with 0 for u_j of walls and
+   2 v_t, v along the plane, of such an image; tests/oracle balances with it. (u_i is known only when the sweep is over
+   that would have to book it.) */
 typedef struct sph_totals {
     uint32_t fluid, wall, solid; /* particles */
     double mass;                 /* kg, fluid and solid, as all that follows */

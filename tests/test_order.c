@@ -107,7 +107,7 @@ static sph_sim *start(const scene *s, uint32_t integrator)
     for (int k = 0; k < SPH_DIM; k++)
         lo[k] = k < 2 ? 0 : c.lo[k], hi[k] = k < 2 ? 1 : c.hi[k];
     if (s->solid) {
-        sph_solid m = {.shear = 0.3 * 1000 * 25, .crack_speed = 0.4, .yield = s->hardening > 0 ? 1e-3 : 0};
+        sph_solid m = {.shear = 0.3 * 1000 * 25, .crack_speed = 0.03, .yield = s->hardening > 0 ? 1e-3 : 0};
         m.hardening = s->hardening;
         must(sim, sph_add_solid(sim, &m, &set, NULL));
     } else {
