@@ -706,6 +706,28 @@ static void calls_at_the_wrong_moment_are_refused(void **state)
     assert_true(strlen(sph_last(sim)->allowed) > 2);
 }
 
+/* the first forces are a part of the first step: whatever slice ends them, nothing may be changed before that step ends */
+static void first_forces_in_slices_leave_a_step_begun(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
+        sph_config c = base();
+        c.integrator = i;
+        sph_sim *sim = pool(&c);
+        uint32_t slices = 0;
+        sph_status st;
+        while ((st = sph_step_slice(sim, 40)) == SPH_NOT_DONE) {
+            slices++;
+            assert_int_equal(sph_reconfigure(sim, &c), SPH_BAD_STATE);
+            assert_int_equal(sph_remove_wall_at(sim, 0, 1), SPH_BAD_STATE);
+        }
+        assert_int_equal(st, SPH_OK);
+        assert_true(slices > 10);
+        must(sim, sph_reconfigure(sim, &c));
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
 static void step_to_ends_exactly_where_told(void **state)
 {
     sph_config c = base();
@@ -856,6 +878,7 @@ int main(void)
         subject(walls_check_their_arguments),
         subject(readers_check_their_arguments),
         subject(calls_at_the_wrong_moment_are_refused),
+        subject(first_forces_in_slices_leave_a_step_begun),
         subject(step_to_ends_exactly_where_told),
         subject(only_some_fields_may_change_later),
         subject(texts_are_there),
