@@ -37,7 +37,7 @@ static sph_sim *piston(const wall_row *w, uint32_t integrator)
     c.eos = SPH_LINEAR;
     c.smoothing_length = 1.5 * DX;
     c.books = true;
-    c.on_cross = SPH_FAIL;
+    c.on_cross = SPH_IGNORE;
     c.max_particles = MOST;
     wall.kind = w->kind;
     wall.compressible = w->compressible;
