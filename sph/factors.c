@@ -92,7 +92,7 @@ void sph_make_factors(sph_sim *sim)
     f->reach2 = (sph_real)(support * support * h * h * 1.0001);
     f->slope = (sph_real)slope;
     f->value = (sph_real)value;
-    if (sph_repels(c) || sph_is_total(c)) {
+    if (sph_repels(c) || sph_is_total(c) || sph_shifts(c)) {
         double at, dw;
         sph_kernel_value(c->kernel, c->spacing, h, &at, &dw);
         f->inv_wdx = at > 0 ? (sph_real)(value / at) : 0;

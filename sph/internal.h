@@ -78,7 +78,7 @@ typedef struct sph_peaks {
 /* constants of the pair formulas (factors.c) */
 typedef struct sph_factors {
     sph_real inv_h, eta, eta_morris, reach, reach2, slope, value;
-    sph_real inv_wdx, repulsion; /* artificial stress: 1/(W(dx) without its scale), epsilon */
+    sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
     bool rate_by_density, continuity, extras;
@@ -251,6 +251,7 @@ SPH_INLINE bool sph_has_mirrors(const sph_config *c, uint32_t k) /* on axis k */
     return SPH_HAS_MIRRORS && (SPH_IS(c->face[k][0], SYMMETRY) || SPH_IS(c->face[k][0], MIRROR_NO_SLIP) ||
                                SPH_IS(c->face[k][1], SYMMETRY) || SPH_IS(c->face[k][1], MIRROR_NO_SLIP));
 }
+SPH_INLINE bool sph_shifts(const sph_config *c) { return SPH_WITH_SHIFTING && c->shifting > 0; }
 SPH_INLINE bool sph_filters(const sph_config *c) { return SPH_WITH_SHEPARD && c->shepard_every != 0; }
 
 SPH_INLINE bool sph_has_solids(const sph_config *c) { return SPH_WITH_SOLID && c->solid != SPH_NO_SOLID; }

@@ -211,6 +211,13 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
    step of damping ahead. What it takes is `absorbed` in sph_totals, with or without books. SPH_ARENA_BYTES: or in
    SPH_USE_BOOKS. Waves want layers of a wavelength or more, and rate width/c about 10 (tests/lab/atlas_sponge.csv). */
 
+/* Particle shifting, `shifting` its strength C, 0: off: at a step's end each particle of fluid drifts from where others
+   are dense to where they are sparse, -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W, at most 0.05 dx; not near a
+   surface (Lind, Xu, Stansby & Rogers 2012; shifting.c). It keeps the particles even, and with that the pressure free of
+   noise: wants h 2 dx, and with C 0.5 so little viscosity as alpha 0.005. Momentum stays, angular momentum does not;
+   what it takes of the potential energy is `shifted` in sph_totals, with or without books. Not in scenes with solids.
+   SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
+
 /* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
    (any of the four; PUT_BACK sets it 0.1 spacings off the wall, without its velocity into the wall). */
 enum { SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE, SPH_POLICIES };
@@ -290,6 +297,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_TOTAL 64u   /* SPH_TOTAL */
 #define SPH_USE_YIELD 128u
 #define SPH_USE_DAMAGE 256u /* flaws: 4 bytes each, to be added */
+#define SPH_USE_SHIFTING 512u
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
@@ -304,18 +312,23 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_BOOKS) ? 7u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
-     (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u))
+     (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
+     (((use)&SPH_USE_SHIFTING) ? SPH_DIM * SPH_REAL_ : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
+/* sums of a velocity gradient, or of shifting */
+#define SPH_TENSOR_SUMS_                                                                                    \
+    SPH_MAX_(SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0u,                                                       \
+             SPH_WITH_SHIFTING ? SPH_DIM + 1u + SPH_DIM * (SPH_DIM + 1u) / 2u : 0u)
 #define SPH_SCRATCH_BYTES /* a thread */                                                                    \
     (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) +                                            \
-      (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM * 512u : 0u)) * (SPH_DOUBLE ? 2u : 1u))
+      SPH_TENSOR_SUMS_ * 512u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SOLID_SCRATCH_BYTES /* with solids besides */                                                   \
     ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
-     ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) * (((use)&SPH_USE_BOOKS) ? 64u : 0u))
+     ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) * (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING)) ? 64u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
 #ifdef __cplusplus
 #define SPH_ARENA(name, bytes) unsigned char name alignas(SPH_ALIGN)[bytes]
@@ -643,6 +656,7 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
+    X(shifted, "J", c->shifting > 0, "potential energy that shifting took; < 0: gave")                                \
     X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                             \
     X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")             \
     X(put_back_loss, "J", SPH_WITH_BOOKS && c->books, "lost by particles that were put back off a wall; < 0: gained") \

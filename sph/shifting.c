@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* shifting.c: particle shifting: at a step's end the fluid's particles drift a little from where they are dense to where
+   they are sparse, so that the disorder that makes the noise of the pressure does not build up (Lind, Xu, Stansby &
+   Rogers 2012; the bracket is Monaghan's 2000 term against clumping, with R = 0.2 and n = 4):
+
+     dx_i = -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W,   |dx_i| at most 0.05 spacings
+
+   over fluid and walls, images included, with the largest speed v_max. Only inside: where sum V_j W > 0.9 and the
+   smallest eigenvalue of sum V_j (x_j - x_i) (x) grad W is above 0.75; a surface would be blown apart. Boundary-force
+   walls have no volume: beside them nothing is shifted. Velocities and densities stay, so momentum does, to the last
+   bit; angular momentum and the potential energy do not: what the latter loses is the book `shifted`.
+
+   When: the sums are those of the step's last forces (shift_sums.h), at the places of its end (Runge-Kutta: of its
+   middle); the drift comes last. The order in time is that of the integrator but for the drift, which goes as dt.
+
+   Arrays: disorder (SPH_DIM reals a particle), shifted (a double for each chunk of a local pass). Cost: sums in the
+   force sweep, a local pass. */
+#include "motion.h"
+#include "shift_sums.h"
+
+#if SPH_WITH_SHIFTING
+#define LEAST_COVER ((sph_real)0.9)
+#define LEAST_SPREAD ((sph_real)0.75)
+#define MOST_SPACINGS 0.05
+
+sph_status sph_check_shifting(const sph_config *c, sph_report *r)
+{
+    if (sph_shifts(c) && sph_has_solids(c))
+        return sph_refuse(r, "shifting", "0 in scenes with solids", c->shifting);
+    return SPH_OK;
+}
+
+/* ---- what becomes of the sums ---- */
+
+/* whether all eigenvalues of a symmetric tensor are above 0: its leading minors are */
+static bool positive(const sph_real *a)
+{
+    bool fine = a[0] > 0;
+#if SPH_DIM == 2
+    fine &= a[0] * a[1] - a[2] * a[2] > 0;
+#elif SPH_DIM == 3 /* xx yy zz xy xz yz */
+    const sph_real minor = a[0] * a[1] - a[3] * a[3];
+    fine &= minor > 0;
+    fine &= a[2] * minor - (a[0] * (a[5] * a[5]) + a[1] * (a[4] * a[4]) - 2 * (a[3] * a[4] * a[5])) > 0;
+#endif
+    return fine;
+}
+
+/* minus the slope of disorder, 1/m; 0 near a surface */
+void sph_finish_shift(sph_sim *sim, const sph_thread *t, uint32_t h)
+{
+    const sph_factors *f = &sim->fac;
+    sph_real spread[SPH_NT];
+    for (uint32_t k = 0; k < SPH_NT; k++)
+        spread[k] = -v_fold(t->sum[SUM_SPREAD + k][h]) * f->slope - (k < SPH_DIM ? LEAST_SPREAD : 0);
+    const bool inside = v_fold(t->sum[SUM_COVER][h]) * f->value > LEAST_COVER && positive(spread);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        sim->disorder[k][t->home_at[h]] = inside ? -v_fold(t->sum[SUM_SHIFT + k][h]) * f->slope : 0;
+}
+
+/* ---- the pass ---- */
+
+/* moves a particle by d (m); across an open face nobody is shifted. Returns what that takes of its potential energy,
+   J/kg: round a periodic domain it goes on at the height that it had */
+static double shift(const sph_sim *sim, uint32_t i, const double *d)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    sph_pos q[SPH_DIM], step[SPH_DIM];
+    sph_real turned[SPH_DIM] = {0};
+    double taken = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const double s = d[k] / sim->grid.quantum;
+        step[k] = (sph_pos)(s < 0 ? s - 0.5 : s + 0.5);
+        q[k] = b->pos[k][i] + step[k];
+    }
+    if (sph_enforce_faces(sim, q, turned) == 2)
+        return 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const bool round = SPH_IS(sim->cfg.face[k][0], PERIODIC);
+        const sph_pos way = round ? step[k] : q[k] - b->pos[k][i];
+        taken += sim->cfg.gravity[k] * ((double)way * sim->grid.quantum);
+        sph_displace_fields(sim, b, i, k, way);
+        b->pos[k][i] = q[k];
+    }
+    return taken;
+}
+
+static void shift_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const sph_span span = sph_chunk_span(sim, chunk);
+    const sph_config *c = &sim->cfg;
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const double strength = c->shifting * sim->dt * (double)sim->next.peaks.speed * (4 * c->smoothing_length);
+    const double most = MOST_SPACINGS * c->spacing;
+    double sum = 0;
+    for (uint32_t i = span.first; i < span.last; i++) {
+        const uint8_t set = b->set[0][i];
+        if (set == SPH_DEAD || !sph_is_body(&sim->set[set]))
+            continue;
+        double d[SPH_DIM], d2 = 0;
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            d[k] = strength * (double)sim->disorder[k][i];
+            d2 += d[k] * d[k];
+        }
+        if (!(d2 > 0 && d2 < 1e300)) /* 0, or beyond all bounds: the next forces fail */
+            continue;
+        const double less = d2 > most * most ? most / __builtin_sqrt(d2) : 1;
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            d[k] *= less;
+        sum += sim->set[set].mass * shift(sim, i, d);
+    }
+    sim->shifted[chunk] = sum;
+    t->work += span.last - span.first;
+}
+
+/* the book: chunks in their order */
+static sph_status shift_end(sph_sim *sim)
+{
+    double sum = 0;
+    for (uint32_t chunk = 0; chunk < sph_local_chunks(sim); chunk++)
+        sum += sim->shifted[chunk];
+    sim->next.shifted += sum;
+    return SPH_OK;
+}
+
+static bool shifts(const sph_sim *sim) { return sph_shifts(&sim->cfg); }
+
+const sph_pass sph_pass_shifting = {"shifting", sph_local_chunks, shift_chunk, shift_end, shifts};
+#endif
