@@ -7,7 +7,7 @@
 /* the option; how a line is made: options.h */
 #define SPH_SHIFTING_OPTIONS(O, P, A)                                                                                 \
     P(A, shifting, REAL, 0, 0, 4, SPH_WITH_SHIFTING, "0 .. 4, and 0 in scenes with solids", FIXED, "-",               \
-      "strength of particle shifting; 0: off, 0.5: usual", "shifting", "-", 0, 4, USUAL)
+      "strength of particle shifting; 0: off, 0.5: usual", "shifting", "-", 0, 4, OWN)
 
 #ifdef SPH_H /* the tool reads the list of options without the kernel */
 struct sph_config;
