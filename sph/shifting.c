@@ -7,20 +7,30 @@
 
    over fluid and walls, images included, with the largest speed v_max. Only inside: where sum V_j W > 0.9 and the
    smallest eigenvalue of sum V_j (x_j - x_i) (x) grad W is above 0.75; a surface would be blown apart. Boundary-force
-   walls have no volume: beside them nothing is shifted. Velocities and densities stay, so momentum does, to the last
-   bit; angular momentum and the potential energy do not: what the latter loses is the book `shifted`.
+   walls have no volume: beside them nothing is shifted.
+
+   What evens the particles out also wipes out the memory of the strain by which continuity, with plain gradients, was
+   wrong: rho no longer goes with the number of particles, and a sloshing tank swells (5 % in 20 periods). So deep inside,
+   where that eigenvalue is above 0.98, density goes slowly to where the volumes fill space:
+
+     rho_i += rho_i r (sum V_j W - 1),   r = C dt v_max/h, at most 1/2
+
+   Velocities stay, so momentum does, to the last bit; angular momentum and energy do not: what potential and internal
+   energy lose is the book `shifted`.
 
    When: the sums are those of the step's last forces (shift_sums.h), at the places of its end (Runge-Kutta: of its
    middle); the drift comes last. The order in time is that of the integrator but for the drift, which goes as dt.
 
-   Arrays: disorder (SPH_DIM reals a particle), shifted (a double for each chunk of a local pass). Cost: sums in the
+   Arrays: disorder (SPH_DIM + 1 reals a particle), shifted (a double for each chunk of a local pass). Cost: sums in the
    force sweep, a local pass. */
+#include "eos.h"
 #include "motion.h"
 #include "shift_sums.h"
 
 #if SPH_WITH_SHIFTING
 #define LEAST_COVER ((sph_real)0.9)
 #define LEAST_SPREAD ((sph_real)0.75)
+#define DEEP_SPREAD ((sph_real)0.98)
 #define MOST_SPACINGS 0.05
 
 sph_status sph_check_shifting(const sph_config *c, sph_report *r)
@@ -32,9 +42,12 @@ sph_status sph_check_shifting(const sph_config *c, sph_report *r)
 
 /* ---- what becomes of the sums ---- */
 
-/* whether all eigenvalues of a symmetric tensor are above 0: its leading minors are */
-static bool positive(const sph_real *a)
+/* whether all eigenvalues of a symmetric tensor are above a bound: its leading minors less the bound are above 0 */
+static bool is_above(const sph_real *t, sph_real bound)
 {
+    sph_real a[SPH_NT];
+    for (uint32_t k = 0; k < SPH_NT; k++)
+        a[k] = t[k] - (k < SPH_DIM ? bound : 0);
     bool fine = a[0] > 0;
 #if SPH_DIM == 2
     fine &= a[0] * a[1] - a[2] * a[2] > 0;
@@ -46,16 +59,18 @@ static bool positive(const sph_real *a)
     return fine;
 }
 
-/* minus the slope of disorder, 1/m; 0 near a surface */
+/* minus the slope of disorder, 1/m; then what the cover is above 1. 0 near a surface */
 void sph_finish_shift(sph_sim *sim, const sph_thread *t, uint32_t h)
 {
     const sph_factors *f = &sim->fac;
     sph_real spread[SPH_NT];
     for (uint32_t k = 0; k < SPH_NT; k++)
-        spread[k] = -v_fold(t->sum[SUM_SPREAD + k][h]) * f->slope - (k < SPH_DIM ? LEAST_SPREAD : 0);
-    const bool inside = v_fold(t->sum[SUM_COVER][h]) * f->value > LEAST_COVER && positive(spread);
+        spread[k] = -v_fold(t->sum[SUM_SPREAD + k][h]) * f->slope;
+    const sph_real cover = v_fold(t->sum[SUM_COVER][h]) * f->value;
+    const bool inside = cover > LEAST_COVER && is_above(spread, LEAST_SPREAD);
     for (uint32_t k = 0; k < SPH_DIM; k++)
         sim->disorder[k][t->home_at[h]] = inside ? -v_fold(t->sum[SUM_SHIFT + k][h]) * f->slope : 0;
+    sim->disorder[SPH_DIM][t->home_at[h]] = inside && is_above(spread, DEEP_SPREAD) ? cover - 1 : 0;
 }
 
 /* ---- the pass ---- */
@@ -85,29 +100,49 @@ static double shift(const sph_sim *sim, uint32_t i, const double *d)
     return taken;
 }
 
+/* how far particle i is to go, given what its slope of disorder is multiplied by (m^2); false: nowhere, or beyond all
+   bounds, and the next forces fail */
+static bool drift_of(const sph_sim *sim, uint32_t i, double strength, double *d)
+{
+    const double most = MOST_SPACINGS * sim->cfg.spacing;
+    double d2 = 0;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        d[k] = strength * (double)sim->disorder[k][i];
+        d2 += d[k] * d[k];
+    }
+    const double less = d2 > most * most ? most / __builtin_sqrt(d2) : 1;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        d[k] *= less;
+    return d2 > 0 && d2 < 1e300;
+}
+
+/* fills space: the density of particle i by a share of what its cover is too much; returns what that takes of its
+   internal energy, J/kg */
+static double fill(const sph_sim *sim, const sph_set *s, uint32_t i, sph_real share)
+{
+    sph_real *d = &sim->buf[sim->dst].rho[0][i];
+    const sph_real was = *d, more = share * sim->disorder[SPH_DIM][i];
+    if (!(more < 1 && more > -1)) /* a failure, as above */
+        return 0;
+    *d = was + (1 + was) * more;
+    const double b = (double)s->b_r;
+    return sph_eos_energy(s->eos, b, s->rho0, (double)was) - sph_eos_energy(s->eos, b, s->rho0, (double)*d);
+}
+
 static void shift_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span span = sph_chunk_span(sim, chunk);
-    const sph_config *c = &sim->cfg;
-    const sph_buffer *b = &sim->buf[sim->dst];
-    const double strength = c->shifting * sim->dt * (double)sim->next.peaks.speed * (4 * c->smoothing_length);
-    const double most = MOST_SPACINGS * c->spacing;
-    double sum = 0;
+    const double h = sim->cfg.smoothing_length, way = sim->cfg.shifting * sim->dt * (double)sim->next.peaks.speed;
+    const sph_real share = (sph_real)(way < 0.5 * h ? way / h : 0.5);
+    double d[SPH_DIM], sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
-        const uint8_t set = b->set[0][i];
+        const uint8_t set = sim->buf[sim->dst].set[0][i];
         if (set == SPH_DEAD || !sph_is_body(&sim->set[set]))
             continue;
-        double d[SPH_DIM], d2 = 0;
-        for (uint32_t k = 0; k < SPH_DIM; k++) {
-            d[k] = strength * (double)sim->disorder[k][i];
-            d2 += d[k] * d[k];
-        }
-        if (!(d2 > 0 && d2 < 1e300)) /* 0, or beyond all bounds: the next forces fail */
-            continue;
-        const double less = d2 > most * most ? most / __builtin_sqrt(d2) : 1;
-        for (uint32_t k = 0; k < SPH_DIM; k++)
-            d[k] *= less;
-        sum += sim->set[set].mass * shift(sim, i, d);
+        double taken = fill(sim, &sim->set[set], i, share);
+        if (drift_of(sim, i, way * (4 * h), d))
+            taken += shift(sim, i, d);
+        sum += sim->set[set].mass * taken;
     }
     sim->shifted[chunk] = sum;
     t->work += span.last - span.first;

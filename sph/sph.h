@@ -214,8 +214,9 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
 /* Particle shifting, `shifting` its strength C, 0: off: at a step's end each particle of fluid drifts from where others
    are dense to where they are sparse, -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W, at most 0.05 dx; not near a
    surface (Lind, Xu, Stansby & Rogers 2012; shifting.c). It keeps the particles even, and with that the pressure free of
-   noise: wants h 2 dx, and with C 0.5 so little viscosity as alpha 0.005. Momentum stays, angular momentum does not;
-   what it takes of the potential energy is `shifted` in sph_totals, with or without books. Not in scenes with solids.
+   noise: wants h 2 dx, and with C 0.5 so little viscosity as alpha 0.005. Deep inside density goes slowly to where the
+   particles' volumes fill space, so that a tank does not swell. Momentum stays, angular momentum does not; what is taken
+   of potential and internal energy is `shifted` in sph_totals, with or without books. Not in scenes with solids.
    SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
 
 /* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
@@ -313,7 +314,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
-     (((use)&SPH_USE_SHIFTING) ? SPH_DIM * SPH_REAL_ : 0u))
+     (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
 /* sums of a velocity gradient, or of shifting */
 #define SPH_TENSOR_SUMS_                                                                                    \
@@ -651,12 +652,12 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges, inspection -----------------------------------------------------------------------*/
 /* Books of what happens at once, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
-   the state, its digest and dumps follow from the list. `c`: the configuration. The first two are kept in every scene,
+   the state, its digest and dumps follow from the list. `c`: the configuration. The first three are kept in every scene,
    the others where the scene asks for books. */
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
+    X(shifted, "J", c->shifting > 0, "energy that shifting took; < 0: gave")                                          \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
-    X(shifted, "J", c->shifting > 0, "potential energy that shifting took; < 0: gave")                                \
     X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                             \
     X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")             \
     X(put_back_loss, "J", SPH_WITH_BOOKS && c->books, "lost by particles that were put back off a wall; < 0: gained") \
@@ -667,7 +668,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
      d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes,
    to rounding; the powers are integrated over time by the trapezoidal rule, and
      balance = kinetic + potential + internal + elastic + plastic_work - wall_work - body_work + dissipated + diffused
-             + in_walls + in_bonds + unbalanced + absorbed + carried_off + released + put_back_loss + filtered + damped
+             + in_walls + in_bonds + unbalanced + absorbed + shifted + carried_off + released + put_back_loss
+             + filtered + damped
    stays (plastic_work to first order in dt; gravity changed by sph_reconfigure shifts the potential). Without books it
    is what can be summed without them. `unbalanced` is 0 but for DIRECT, the printed continuity forms, WEAK schemes with
    summed density, MIRROR_NO_SLIP, xsph_strain, the drift of XSPH in gravity, and solids, whose Jaumann rate stores
