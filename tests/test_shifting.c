@@ -404,7 +404,7 @@ static void the_book_has_what_the_energy_lost(void **state)
 }
 
 #if SPH_DIM == 2
-/* the scene, coarse: six periods; without the filling of space it swells */
+/* the scene, coarse: three periods; without the filling of space it swells by 1 %, and the energy rises to twice */
 static void a_sloshing_tank_does_not_swell(void **state)
 {
     const scene *s = NULL;
@@ -415,25 +415,25 @@ static void a_sloshing_tank_does_not_swell(void **state)
         s = strcmp((*k)->name, "sloshing") == 0 ? *k : s;
     assert_non_null(s);
     for (uint32_t k = 0; k < s->params; k++)
-        p[k] = strcmp(s->param[k].name, "n") == 0 ? 8 : strcmp(s->param[k].name, "periods") == 0 ? 6 : s->param[k].value;
+        p[k] = strcmp(s->param[k].name, "n") == 0 ? 16 : strcmp(s->param[k].name, "periods") == 0 ? 3 : s->param[k].value;
     s->configure(p, &c);
     sph_sim *sim = new_sim(&c);
     must(sim, s->build(sim, p));
     must(sim, sph_ready(sim));
-    for (int i = 0; i <= 240; i++) {
-        const double t = s->end(p) * i / 240;
+    for (int i = 0; i <= 120; i++) {
+        const double t = s->end(p) * i / 120;
         while (sph_time(sim) < t)
             must(sim, sph_step_to(sim, t));
         s->history(sim, p, row);
         first = i ? first : row[2];
-        level += i <= 200 ? 0 : row[2] / 40; /* of the last period */
+        level += i <= 80 ? 0 : row[2] / 40; /* of the last period */
         low = fmin(low, row[5]);
         rise = fmax(rise, row[5] - low);
         kinetic = fmax(kinetic, row[6]);
     }
     print_message("sloshing: level %.4f of the first; energy rose by %.4f of the largest kinetic\n", level / first,
                   rise / kinetic);
-    close_to(level / first, 1, 0.01);
+    close_to(level / first, 1, 0.006);
     assert_true(rise < 0.05 * kinetic);
 }
 #endif

@@ -13,7 +13,7 @@ enum { POINTS = 5, SENSORS = 4 }; /* places of a sensor whose mean is taken; sen
 
 static const scene_param param[PARAMS] = {
     SCENE_PARAMS_SHIFTED(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.005, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 1,
-                         SPH_KICK_DRIFT_KICK, 0.9, 1, 0.2, 0.5),
+                         SPH_KICK_DRIFT_KICK, 0.5, 1, 0.2, 0.5),
     {"high", "m", "height of the column, H", 0.3, 1e-3, 1e3, SCENE_NUMBER},
     {"wide", "H", "width of the column", 2, 0.1, 100, SCENE_NUMBER},
     {"length", "H", "length of the tank", 5.366666666666667, 0.2, 1000, SCENE_NUMBER},
