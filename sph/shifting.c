@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* shifting.c: particle shifting: at a step's end the fluid's particles drift a little from where they are dense to where
-   they are sparse, so that the disorder that makes the noise of the pressure does not build up (Lind, Xu, Stansby &
+/* shifting.c: particle shifting: at a step's end the fluid's particles drift a little from where they are dense to
+   where they are sparse, so that the disorder that makes the noise of the pressure does not build up (Lind, Xu, Stansby &
    Rogers 2012; the bracket is Monaghan's 2000 term against clumping, with R = 0.2 and n = 4):
 
      dx_i = -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W,   |dx_i| at most 0.05 spacings
@@ -10,8 +10,8 @@
    walls have no volume: beside them nothing is shifted.
 
    What evens the particles out also wipes out the memory of the strain by which continuity, with plain gradients, was
-   wrong: rho no longer goes with the number of particles, and a sloshing tank swells (5 % in 20 periods). So deep inside,
-   where that eigenvalue is above 0.98, density goes slowly to where the volumes fill space:
+   wrong: rho no longer goes with the number of particles, and a sloshing tank swells (5 % in 20 periods). So deep
+   inside, where that eigenvalue is above 0.98, density goes slowly to where the volumes fill space:
 
      rho_i += rho_i r (sum V_j W - 1),   r = C dt v_max/h, at most 1/2
 
@@ -48,14 +48,13 @@ static bool is_above(const sph_real *t, sph_real bound)
     sph_real a[SPH_NT];
     for (uint32_t k = 0; k < SPH_NT; k++)
         a[k] = t[k] - (k < SPH_DIM ? bound : 0);
-    bool fine = a[0] > 0;
-#if SPH_DIM == 2
-    fine &= a[0] * a[1] - a[2] * a[2] > 0;
-#elif SPH_DIM == 3 /* xx yy zz xy xz yz */
-    const sph_real minor = a[0] * a[1] - a[3] * a[3];
-    fine &= minor > 0;
-    fine &= a[2] * minor - (a[0] * (a[5] * a[5]) + a[1] * (a[4] * a[4]) - 2 * (a[3] * a[4] * a[5])) > 0;
-#endif
+    /* xx yy zz xy xz yz */
+    enum { XX, YY = SPH_DIM > 1, ZZ = SPH_DIM > 2 ? 2 : 0, XY = SPH_DIM - 1 + YY };
+    enum { XZ = SPH_DIM > 2 ? 4 : 0, YZ = SPH_DIM > 2 ? 5 : 0 };
+    const sph_real minor = a[XX] * a[YY] - a[XY] * a[XY];
+    bool fine = a[XX] > 0 && (SPH_DIM == 1 || minor > 0);
+    if (SPH_DIM == 3)
+        fine &= a[ZZ] * minor - (a[XX] * (a[YZ] * a[YZ]) + a[YY] * (a[XZ] * a[XZ]) - 2 * (a[XY] * a[YZ] * a[XZ])) > 0;
     return fine;
 }
 

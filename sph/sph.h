@@ -213,10 +213,10 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
 
 /* Particle shifting, `shifting` its strength C, 0: off: at a step's end each particle of fluid drifts from where others
    are dense to where they are sparse, -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W, at most 0.05 dx; not near a
-   surface (Lind, Xu, Stansby & Rogers 2012; shifting.c). It keeps the particles even, and with that the pressure free of
-   noise: wants h 2 dx, and with C 0.5 so little viscosity as alpha 0.005. Deep inside density goes slowly to where the
-   particles' volumes fill space, so that a tank does not swell. Momentum stays, angular momentum does not; what is taken
-   of potential and internal energy is `shifted` in sph_totals, with or without books. Not in scenes with solids.
+   surface (Lind, Xu, Stansby & Rogers 2012; shifting.c). It keeps the particles even, and with that the pressure free
+   of noise: wants h 2 dx, and with C 0.5 so little viscosity as alpha 0.005. Deep inside density goes slowly to where
+   the particles' volumes fill space, so that a tank does not swell. Momentum stays, angular momentum does not; what is
+   taken of potential and internal energy is `shifted` in sph_totals, with or without books. Not in scenes with solids.
    SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
 
 /* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
@@ -329,7 +329,8 @@ size_t sph_arena_bytes(const sph_config *cfg);
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
-     ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) * (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING)) ? 64u : 0u))
+     ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
+         (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING)) ? 64u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
 #ifdef __cplusplus
 #define SPH_ARENA(name, bytes) unsigned char name alignas(SPH_ALIGN)[bytes]

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_shifting.c: particle shifting against sums of its own over all pairs, walls and images, in double: where nobody is
-   shifted, how far the others are, what must not be touched, the book, refusals, and that restarts, slices and threads
+/* test_shifting.c: particle shifting against sums of its own over all pairs, walls and images, in double: where nobody
+   is shifted, how far the others are, what must not be touched, the book, refusals, and that restarts, slices and threads
    change nothing. */
 #include "examples/scenes/scene.h"
 #include "sph/internal.h"
@@ -126,8 +126,8 @@ static double smallest(const sums *s)
     return 3 - large;
 }
 
-/* how far a particle at x is to be shifted (m), given the largest speed, and by what share its density rises; false: too
-   close to a bound to say. why: 0 it is shifted, 1 too little cover, 2 an eigenvalue too small */
+/* how far a particle at x is to be shifted (m), given the largest speed, and by what share its density rises; false:
+   too close to a bound to say. why: 0 it is shifted, 1 too little cover, 2 an eigenvalue too small */
 static bool wanted(const sph_sim *sim, const sph_config *c, const double *x, double speed, double *d, double *rise,
                    int *why)
 {
@@ -199,8 +199,8 @@ static void each_goes_as_its_sums_say(void **state)
         const sph_config c = world(w, 1);
         uint32_t count[4] = {0};
         const double largest = compare(&c, w, count);
-        print_message("shifting, world %u: %u shifted, by up to %.4f dx; %u left alone by cover, %u by spread; %u filled\n", w,
-                      count[0], largest, count[1], count[2], count[3]);
+        print_message("shifting, world %u: %u shifted, by up to %.4f dx; %u left alone by cover, %u by spread; %u filled\n",
+                      w, count[0], largest, count[1], count[2], count[3]);
         assert_true(count[3] > 0 && (w != OPEN || count[3] < count[0]));
         assert_true(count[0] > N / 2 && largest > 1e-3 && largest < 0.05);
         const bool closed = w == PERIODIC || w == MIRRORS; /* holes of the cloud only */
@@ -414,8 +414,10 @@ static void a_sloshing_tank_does_not_swell(void **state)
     for (const scene *const *k = scene_table; *k; k++)
         s = strcmp((*k)->name, "sloshing") == 0 ? *k : s;
     assert_non_null(s);
-    for (uint32_t k = 0; k < s->params; k++)
-        p[k] = strcmp(s->param[k].name, "n") == 0 ? 16 : strcmp(s->param[k].name, "periods") == 0 ? 3 : s->param[k].value;
+    for (uint32_t k = 0; k < s->params; k++) {
+        const char *name = s->param[k].name;
+        p[k] = strcmp(name, "n") == 0 ? 16 : strcmp(name, "periods") == 0 ? 3 : s->param[k].value;
+    }
     s->configure(p, &c);
     sph_sim *sim = new_sim(&c);
     must(sim, s->build(sim, p));

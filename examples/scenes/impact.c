@@ -3,8 +3,8 @@
    dam break of Lobovsky, Botia-Vera, Castellana, Mas-Soler & Souto-Iglesias (2014), J. Fluids Struct. 48, 407: column
    0.6 m wide and H = 0.3 m high, tank 1.61 m long, pressures 3, 15, 30 and 80 mm above the floor, levels at 0.3, 0.6,
    0.865 and 1.114 m from the reservoir's wall. The gate is gone at once. History in their terms: t sqrt(g/H), pressure
-   over rho g H at the sensor's middle and as the mean over its width, level over H (a gauge needs water on both sides of
-   its line, so none stands at the wall). */
+   over rho g H at the sensor's middle and as the mean over its width, level over H (a gauge needs water on both sides
+   of its line, so none stands at the wall). */
 #include "scene.h"
 #if SPH_DIM == 2
 

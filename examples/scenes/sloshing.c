@@ -75,8 +75,8 @@ static sph_status build(sph_sim *sim, const double *p)
 static double end(const double *p) { return p[PERIODS] * 2 * SCENE_PI / omega(p); }
 
 static const char *const column[] = {"time_s",        "t_periods",    "level_m",        "mode_m",       "mode_linear_m",
-                                     "energy_J/m",    "kinetic_J/m",  "potential_J/m",  "internal_J/m", "dissipated_J/m",
-                                     "diffused_J/m",  "shifted_J/m",  "max_speed_m/s"};
+                                     "energy_J/m",    "kinetic_J/m",  "potential_J/m",  "internal_J/m",
+                                     "dissipated_J/m", "diffused_J/m",  "shifted_J/m",  "max_speed_m/s"};
 
 /* the mean level, by gauges a support and more off the walls, as many left as right of the middle */
 static double mean_level(const sph_sim *sim, const double *p)
@@ -104,7 +104,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
         if (sph_get(sim, i, &q) == SPH_OK && q.role == SPH_ROLE_FLUID)
             moment += q.mass * sph_cos(k * q.x[0]);
     const double values[] = {t, t * omega(p) / (2 * SCENE_PI), mean_level(sim, p),
-                             o.mass > 0 ? 2 * d * moment / o.mass : 0, p[AMPLITUDE] * d * sph_sin(omega(p) * t), o.kinetic + o.potential + o.internal, o.kinetic,
+                             o.mass > 0 ? 2 * d * moment / o.mass : 0, p[AMPLITUDE] * d * sph_sin(omega(p) * t),
+                             o.kinetic + o.potential + o.internal, o.kinetic,
                              o.potential, o.internal, o.dissipated, o.diffused, o.shifted, o.max_speed};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];

@@ -224,16 +224,19 @@ impact_methods = {
 
 def impact_study(name, title, norm, unit, reference, error):
     return Study(name, title, "impact", norm, unit, reference, error, "n, particles in the column's height", [20, 40],
-                 impact_methods, base=dict(every=1e-4), more={"default": [60], "no shifting, alpha 0.02, sound 14": [60]},
+                 impact_methods, base=dict(every=1e-4),
+                 more={"default": [60], "no shifting, alpha 0.02, sound 14": [60]},
                  doubles=("default",), at=40, h={"default": ({}, [1.2, 1.5, 1.8, 2.0, 2.2])})
 
 
 impact = impact_study(
     "impact", "dam break against a wall (B8), noise of the pressure",
-    "rms of P1 about its mean over 10 ms, t* 3.2 .. 5.5", "% of rho g H", "none; measured 0.2 (Lobovsky et al. 2014)", noise_error)
+    "rms of P1 about its mean over 10 ms, t* 3.2 .. 5.5", "% of rho g H", "none; measured 0.2 (Lobovsky et al. 2014)",
+    noise_error)
 impact_top = impact_study(
     "impact_peak", "dam break against a wall (B8), peak of the pressure",
-    "largest mean of P1 over 10 ms, above the measured", "%", "one event, 2.51 rho g H (Lobovsky et al. 2014)", peak_error)
+    "largest mean of P1 over 10 ms, above the measured", "%", "one event, 2.51 rho g H (Lobovsky et al. 2014)",
+    peak_error)
 impact_after = impact_study(
     "impact_mean", "dam break against a wall (B8), pressure after the impact", "mean of P1, t* 3.2 .. 5.5", "%",
     "incompressible delta-SPH, 0.972 rho g H (De Courcy et al. 2024)", mean_error)
