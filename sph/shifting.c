@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* shifting.c: particle shifting: at a step's end the fluid's particles drift a little from where they are dense to
-   where they are sparse, so that the disorder that makes the noise of the pressure does not build up (Lind, Xu, Stansby &
-   Rogers 2012; the bracket is Monaghan's 2000 term against clumping, with R = 0.2 and n = 4):
+   where they are sparse, so that the disorder that makes the noise of the pressure does not build up (Lind, Xu, Stansby
+   & Rogers 2012; the bracket is Monaghan's 2000 term against clumping, with R = 0.2 and n = 4):
 
      dx_i = -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W,   |dx_i| at most 0.05 spacings
 

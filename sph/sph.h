@@ -656,8 +656,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
    the state, its digest and dumps follow from the list. `c`: the configuration. The first three are kept in every scene,
    the others where the scene asks for books. */
 #define SPH_BOOKS(X)                                                                                                  \
-    X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
-    X(shifted, "J", c->shifting > 0, "energy that shifting took; < 0: gave")                                          \
+    X(absorbed, "J", SPH_WITH_SPONGE && c->sponge_rate > 0, "kinetic energy that sponge layers took")                 \
+    X(shifted, "J", SPH_WITH_SHIFTING && c->shifting > 0, "energy that shifting took; < 0: gave")                     \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
     X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                             \
     X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")             \

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* test_shifting.c: particle shifting against sums of its own over all pairs, walls and images, in double: where nobody
-   is shifted, how far the others are, what must not be touched, the book, refusals, and that restarts, slices and threads
-   change nothing. */
+   is shifted, how far the others are, what must not be touched, the book, refusals, and that restarts, slices and
+   threads change nothing. */
 #include "examples/scenes/scene.h"
 #include "sph/internal.h"
 #include "testing.h"
@@ -199,8 +199,8 @@ static void each_goes_as_its_sums_say(void **state)
         const sph_config c = world(w, 1);
         uint32_t count[4] = {0};
         const double largest = compare(&c, w, count);
-        print_message("shifting, world %u: %u shifted, by up to %.4f dx; %u left alone by cover, %u by spread; %u filled\n",
-                      w, count[0], largest, count[1], count[2], count[3]);
+        print_message("shifting, world %u: %u shifted, to %.4f dx; %u left alone by cover, %u by spread; %u filled\n", w,
+                      count[0], largest, count[1], count[2], count[3]);
         assert_true(count[3] > 0 && (w != OPEN || count[3] < count[0]));
         assert_true(count[0] > N / 2 && largest > 1e-3 && largest < 0.05);
         const bool closed = w == PERIODIC || w == MIRRORS; /* holes of the cloud only */
