@@ -199,7 +199,7 @@ static void each_goes_as_its_sums_say(void **state)
         const sph_config c = world(w, 1);
         uint32_t count[4] = {0};
         const double largest = compare(&c, w, count);
-        print_message("shifting, world %u: %u shifted, to %.4f dx; %u left alone by cover, %u by spread; %u filled\n", w,
+        print_message("shifting, world %u: %u shifted, to %.4f dx; %u left by cover, %u by spread; %u filled\n", w,
                       count[0], largest, count[1], count[2], count[3]);
         assert_true(count[3] > 0 && (w != OPEN || count[3] < count[0]));
         assert_true(count[0] > N / 2 && largest > 1e-3 && largest < 0.05);
