@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* impact.c: a column of water collapses and runs against the wall at the end of the tank, on which sensors sit: the
    dam break of Lobovsky, Botia-Vera, Castellana, Mas-Soler & Souto-Iglesias (2014), J. Fluids Struct. 48, 407: column
-   0.6 m wide and H = 0.3 m high, tank 1.61 m long, pressures 3, 15, 30 and 80 mm above the floor, levels at 0.3, 0.6,
-   0.865 and 1.114 m from the reservoir's wall. The gate is gone at once. History in their terms: t sqrt(g/H), pressure
+   0.6 m wide and H = 0.3 m high, tank 1.61 m long, pressures 3, 15, 30 and 80 mm above the floor, levels at 0.3, 0.865,
+   1.114 and 1.3625 m from the reservoir's wall. The gate is gone at once. History in their terms: t sqrt(g/H), pressure
    over rho g H at the sensor's middle and as the mean over its width, level over H (a gauge needs water on both sides
    of its line, so none stands at the wall). */
 #include "scene.h"
@@ -27,7 +27,7 @@ static const scene_param param[PARAMS] = {
 
 /* heights of sensors and places of gauges, in H */
 static const double sensor[SENSORS] = {0.01, 0.05, 0.1, 0.26666666666666666};
-static const double gauge[SENSORS] = {1, 2, 2.8833333333333333, 3.7133333333333334};
+static const double gauge[SENSORS] = {1, 2.8833333333333333, 3.7133333333333334, 4.541666666666667};
 
 static double spacing(const double *p) { return p[HIGH] / p[N]; }
 static double sound(const double *p) { return p[SOUND] * __builtin_sqrt(p[GRAVITY] * p[HIGH]); }
