@@ -26,6 +26,9 @@
 #include "eos.h"
 #include "motion.h"
 #include "shift_sums.h"
+#include "arithmetic.h"
+
+SPH_OBJECT(shifting)
 
 #if SPH_WITH_SHIFTING
 #define LEAST_COVER ((sph_real)0.9)
@@ -115,6 +118,11 @@ static bool drift_of(const sph_sim *sim, uint32_t i, double strength, double *d)
     return d2 > 0 && d2 < 1e300;
 }
 
+static double energy(const sph_sim *sim, const sph_set *s, sph_real d)
+{
+    return sph_eos_energy(s->eos, (double)s->b_r, s->rho0, (double)d, sph_has_floor(sim, s));
+}
+
 /* fills space: the density of particle i by a share of what its cover is too much; returns what that takes of its
    internal energy, J/kg */
 static double fill(const sph_sim *sim, const sph_set *s, uint32_t i, sph_real share)
@@ -124,8 +132,7 @@ static double fill(const sph_sim *sim, const sph_set *s, uint32_t i, sph_real sh
     if (!(more < 1 && more > -1)) /* a failure, as above */
         return 0;
     *d = was + (1 + was) * more;
-    const double b = (double)s->b_r;
-    return sph_eos_energy(s->eos, b, s->rho0, (double)was) - sph_eos_energy(s->eos, b, s->rho0, (double)*d);
+    return energy(sim, s, was) - energy(sim, s, *d);
 }
 
 static void shift_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)

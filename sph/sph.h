@@ -653,8 +653,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges, inspection -----------------------------------------------------------------------*/
 /* Books of what happens at once, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
-   the state, its digest and dumps follow from the list. `c`: the configuration. The first three are kept in every scene,
-   the others where the scene asks for books. */
+   the state, its digest and dumps follow from the list. `c`: the configuration. The first three are kept in every
+   scene, the others where the scene asks for books. */
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", SPH_WITH_SPONGE && c->sponge_rate > 0, "kinetic energy that sponge layers took")                 \
     X(shifted, "J", SPH_WITH_SHIFTING && c->shifting > 0, "energy that shifting took; < 0: gave")                     \
