@@ -72,7 +72,8 @@ void sph_finish_shift(sph_sim *sim, const sph_thread *t, uint32_t h)
     const bool inside = cover > LEAST_COVER && is_above(spread, LEAST_SPREAD);
     for (uint32_t k = 0; k < SPH_DIM; k++)
         sim->disorder[k][t->home_at[h]] = inside ? -v_fold(t->sum[SUM_SHIFT + k][h]) * f->slope : 0;
-    sim->disorder[SPH_DIM][t->home_at[h]] = inside && is_above(spread, DEEP_SPREAD) ? cover - 1 : 0;
+    const bool deep = inside && f->continuity && is_above(spread, DEEP_SPREAD);
+    sim->disorder[SPH_DIM][t->home_at[h]] = deep ? cover - 1 : 0;
 }
 
 /* ---- the pass ---- */

@@ -11,7 +11,7 @@
      Runge-Kutta          forces at t; all of it half a step on; forces there; x' = x + dt (v_h + u_h), and v, rho by a
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
-   where its motion says at each of these times. At the end of a step damage grows, then sponges take. Faces: periodic
+   where its motion says at each of these times. At the end of a step damage grows, sponges take, then shifting. Faces: periodic
    ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated
    by. */
 #include <stdlib.h>
@@ -76,6 +76,7 @@ void o_begin_steps(o_scene *s, uint32_t room)
         abort();
     memset(was, 0, room * sizeof *was);
     last = 0;
+    s->shifted = (o_sum){0, 0};
     remember_rates(s);
 }
 
@@ -332,6 +333,8 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
             if (!is_held(s, p, k))
                 p->v[k] = s->cfg.sponge_velocity[k] + (p->v[k] - s->cfg.sponge_velocity[k]) * f;
     }
+    if (s->cfg.shifting > 0)
+        o_shift(s, dt);
     last = dt;
     if (by == SPH_RUNGE_KUTTA || by == SPH_RUNGE_KUTTA_MOMENTUM)
         return;
