@@ -329,7 +329,7 @@ static uint32_t flaws_of(uint32_t id, float *threshold) { return look_flaws(look
 
 static o_sum near(double v, double scale) { return (o_sum){v, scale * APART / TOLERANCE}; }
 
-/* m g dx and m c^2 d, J: what errors of places and densities make of energies */
+/* m g dx and m c^2 d, J: what errors of places and densities make of energies; at rest a gas has a pressure */
 static double heat_of(const o_scene *s)
 {
     double sum = 0;
@@ -338,7 +338,8 @@ static double heat_of(const o_scene *s)
         const o_set *set = &s->set[p->set];
         for (int k = 0; k < SPH_DIM; k++)
             sum += o_is_body(s, p) ? set->mass * fabs(s->cfg.gravity[k]) * s->cfg.spacing : 0;
-        sum += o_is_body(s, p) ? set->mass * o_sound(set->eos, set->c0) * o_sound(set->eos, set->c0) * fabs(p->d) : 0;
+        const double slope = pow(o_sound(set->eos, set->c0), 2) * (set->eos == SPH_ISOTHERMAL ? 1 : fabs(p->d));
+        sum += o_is_body(s, p) ? set->mass * slope : 0;
     }
     return sum;
 }

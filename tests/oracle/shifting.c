@@ -86,6 +86,7 @@ static double stored(const o_scene *s, const o_particle *i)
 void o_shift(o_scene *s, double dt)
 {
     const double h = s->cfg.smoothing_length, by = s->cfg.shifting * dt * s->fastest;
+    const double near = (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing;
     for (uint32_t a = 0; a < s->n; a++) {
         o_particle *i = &s->own[a];
         double way[3] = {0}, to[3], taken = stored(s, i);
@@ -100,8 +101,8 @@ void o_shift(o_scene *s, double dt)
         for (int k = 0; k < SPH_DIM; k++) {
             way[k] *= size > most ? most / size : 1;
             to[k] = end_of(s, k, i->x[k], &way[k], &left);
-            o_close(s, "a particle on a face", i->x[k] + way[k], s->cfg.lo[k], (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing);
-            o_close(s, "a particle on a face", i->x[k] + way[k], s->cfg.hi[k], (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing);
+            o_close(s, "a particle on a face", i->x[k] + way[k], s->cfg.lo[k], near);
+            o_close(s, "a particle on a face", i->x[k] + way[k], s->cfg.hi[k], near);
         }
         for (int k = 0; k < SPH_DIM && !left; k++) {
             i->x[k] = to[k];

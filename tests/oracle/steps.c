@@ -11,9 +11,9 @@
      Runge-Kutta          forces at t; all of it half a step on; forces there; x' = x + dt (v_h + u_h), and v, rho by a
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
-   where its motion says at each of these times. At the end of a step damage grows, sponges take, then shifting. Faces: periodic
-   ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was accelerated
-   by. */
+   where its motion says at each of these times. At the end of a step damage grows, sponges take, then shifting. Faces:
+   periodic ones let in on the other side; a mirror takes the mirrored particle instead: place, velocity, what it was
+   accelerated by. */
 #include <stdlib.h>
 #include <string.h>
 
