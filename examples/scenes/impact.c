@@ -135,5 +135,5 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_impact SPH_NAME(scene_impact)
 extern const scene scene_impact;
 const scene scene_impact = {"impact", "a dam break against a wall with pressure sensors (Lobovsky et al. 2014)", param,
-                            PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                            PARAMS, configure, build, end, sizeof column / sizeof *column, column, history, scene_si};
 #endif

@@ -98,5 +98,6 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_obstacle SPH_NAME(scene_obstacle)
 extern const scene scene_obstacle;
 const scene scene_obstacle = {"obstacle", "a dam break against a box, in 3-D (SPHERIC test 2, Kleefsman et al. 2005)",
-                              param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                              param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history,
+                              scene_si};
 #endif

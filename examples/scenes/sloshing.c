@@ -114,5 +114,5 @@ static void history(const sph_sim *sim, const double *p, double *row)
 #define scene_sloshing SPH_NAME(scene_sloshing)
 extern const scene scene_sloshing;
 const scene scene_sloshing = {"sloshing", "water sloshes in a tank for many periods: level, energy, period", param,
-                              PARAMS, configure, build, end, sizeof column / sizeof *column, column, history};
+                              PARAMS, configure, build, end, sizeof column / sizeof *column, column, history, scene_si};
 #endif
