@@ -450,6 +450,7 @@ static const sph_factors *factors_of(const sph_sim *sim, sph_thread *t, uint32_t
     const sph_set *i = &sim->set[t->home_set[h]], *j = ghosts ? i : t->of;
     const double c2 = i->c0 * i->c0 * (SPH_IS(i->eos, TAIT_GRAY) ? 7 : 1);
     *f = sim->fac;
+    f->most_inv_rho = (sph_real)(2 / i->rho0);
     f->av_alpha = (sph_real)(c->smoothing_length * c->alpha * (i->c0 + j->c0));
     if (SPH_HAS_DIFFUSION)
         f->diff = i->kin == j->kin ? (sph_real)(2 * c->delta * c->smoothing_length * i->c0) : 0;
@@ -685,7 +686,7 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_sweep w = {is_force_home,
                          SPH_BODIES | 1u << SPH_ROLE_GHOST | (points ? 1u << SPH_ROLE_FORCE_WALL : 0),
                          sums_of(&c, true) | (points && (c.books || sim->has_force_wall) ? SUM_MASK(BOUNDARY) : 0),
-                         sph_needs_inv_rho(&c),
+                         (uint8_t)sph_needs_inv_rho(&c),
                          columns_of(&c),
                          force_tile,
                          force_finish,

@@ -33,7 +33,7 @@ typedef struct sph_tile {
     sph_real m[SPH_TILE_ROOM];           /* kg */
     sph_real rho[SPH_TILE_ROOM];         /* kg/m^3 */
     sph_real press[SPH_TILE_ROOM];       /* standard schemes: p/rho^2; others: p */
-    sph_real inv_rho[SPH_TILE_ROOM];     /* 1/rho, where a formula needs it */
+    sph_real inv_rho[SPH_TILE_ROOM];     /* 1/rho, where a formula needs it (sph_sweep.needs_inv_rho) */
 } sph_tile;
 
 /* what a boundary-force particle brings */

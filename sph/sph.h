@@ -166,12 +166,13 @@ enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_S
    kinematic viscosity nu (Morris, Fox & Zhu 1997, with the mean of both densities). */
 enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
 
-/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W over what is of one material; it limits the
-   step to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi = (rho_j -
-   rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the two
-   positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so still water
-   stays still. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial viscosity the
-   mean of both. */
+/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W over what is of one material, with rho_j
+   in m_j/rho_j not below rho0/2 (spray loses density without bound, and would blow diffusion up); it limits the step
+   to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi = (rho_j -
+   rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
+   two positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so still
+   water stays still. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial
+   viscosity the mean of both. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
 /* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of
@@ -211,13 +212,14 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
    step of damping ahead. What it takes is `absorbed` in sph_totals, with or without books. SPH_ARENA_BYTES: or in
    SPH_USE_BOOKS. Waves want layers of a wavelength or more, and rate width/c about 10 (tests/lab/atlas_sponge.csv). */
 
-/* Particle shifting, `shifting` its strength C, 0: off: at a step's end each particle of fluid drifts from where others
-   are dense to where they are sparse, -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W, at most 0.05 dx; not near a
-   surface (Lind, Xu, Stansby & Rogers 2012; shifting.c). It keeps the particles even, and with that the pressure free
-   of noise: wants h 2 dx, and with C 0.5 so little viscosity as alpha 0.005. Deep inside density goes slowly to where
-   the particles' volumes fill space, so that a tank does not swell. Momentum stays, angular momentum does not; what is
-   taken of potential and internal energy is `shifted` in sph_totals, with or without books. Not in scenes with solids.
-   SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
+/* Particle shifting, `shifting` its strength C, 0: off: at a step's end each particle of fluid drifts from where
+   others are dense to where they are sparse, -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W, at most 0.05 dx; not
+   near a surface (Lind, Xu, Stansby & Rogers 2012; shifting.c). V is m/rho, but in weak schemes at most 2 m/rho0. It
+   keeps the particles even, and with that the pressure free of noise: wants h 2 dx, and with C 0.5 so little viscosity
+   as alpha 0.005. Deep inside density goes slowly to where the particles' volumes fill space, so that a tank does not
+   swell. Momentum stays, angular momentum does not; what is taken of potential and internal energy is `shifted` in
+   sph_totals, with or without books (where density is summed, of the potential energy only). Not in scenes with
+   solids. SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
 
 /* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
    (any of the four; PUT_BACK sets it 0.1 spacings off the wall, without its velocity into the wall). */
@@ -627,6 +629,9 @@ typedef struct sph_step_info {
     uint64_t work;        /* work units */
     uint32_t passes;      /* passes run */
     uint32_t left, crossed, put_back, reflected; /* particles: since init */
+    double thinnest, densest; /* rho/rho0 of the fluid now, looked up in all particles; 0: there is none. Far below 1:
+                                 spray, which loses density by continuity, or tension; far above: sound is too slow, or
+                                 a wall squeezes */
 } sph_step_info;
 #define sph_get_step SPH_NAME(get_step)
 void sph_get_step(const sph_sim *sim, sph_step_info *out);

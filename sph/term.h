@@ -61,9 +61,12 @@ SPH_INLINE bool sph_rate_by_density(uint32_t scheme, uint32_t gradient)
 {
     return sph_weak_scheme(scheme) || SPH_IS(gradient, BONET_LOK);
 }
-SPH_INLINE bool sph_needs_inv_rho(const sph_choice *c)
+/* for sph_sweep.needs_inv_rho */
+SPH_INLINE uint32_t sph_needs_inv_rho(const sph_choice *c)
 {
-    return sph_weak_scheme(c->scheme) || sph_diffusive(c->diffusion) || (SPH_WITH_SHIFTING && c->shifting);
+    if (sph_weak_scheme(c->scheme))
+        return true;
+    return sph_diffusive(c->diffusion) || (SPH_WITH_SHIFTING && c->shifting) ? SPH_BOUNDED : false;
 }
 
 /* what a home particle brings to each pair, spread over the lanes once */

@@ -285,7 +285,7 @@ static void draw_points(plan *p)
     const sph_config *c = &p->cfg;
     const double support = o_weight_support(c->kernel) * c->smoothing_length, spread = support * range(0.8, 2);
     const double v = c->sound_speed * (chance(0.1) ? 0 : pow(10, range(-3, -0.5)));
-    const double d = chance(0.1) ? 0 : pow(10, range(-4, -0.3));
+    const double d = chance(0.1) ? 0 : pow(10, range(-4, -0.2));
     const double grain = chance(0.5) ? 0 : c->spacing, jitter = chance(0.3) ? 0 : range(0, 0.3) * c->spacing;
     uint32_t where[3];
     for (int k = 0; k < 3; k++)

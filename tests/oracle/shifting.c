@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* shifting.c: particle shifting of fluids (Lind, Xu, Stansby & Rogers 2012; the bracket: Monaghan 2000; sph.h). Over
-   bodies, ghosts and all their images, with V = m/rho, at the places and densities of the last forces:
+   bodies, ghosts and all their images, with V = m/rho (but in weak schemes at most 2 m/rho0), at the places and
+   densities of the last forces:
      slope_i = sum V_j [1 + 0.2 (W/W(dx))^4] grad W, cover_i = sum V_j W, M_i = sum V_j (x_j - x_i) (x) grad W
    (the bracket is 1 where W(dx) is 0). At the end of a step
      dx_i = -C dt v_max 4h slope_i, cut to 0.05 dx, where cover > 0.9 and all eigenvalues of M are above 0.75
@@ -41,8 +42,11 @@ void o_find_disorder(o_scene *s)
         for (uint32_t b = 0; b < s->m; b++) {
             const o_particle *j = &s->all[b];
             o_pair p;
-            if ((o_is_body(s, j) || o_is_ghost(s, j)) && o_pair_of(s, i, j, &p))
-                sum_pair(s, i, &p, w_dx, &size, spread, &cover);
+            if (!(o_is_body(s, j) || o_is_ghost(s, j)) || !o_pair_of(s, i, j, &p))
+                continue;
+            if (!o_is_weak(s))
+                p.volume = s->set[j->set].mass / o_max(j->rho, 0.5 * s->set[j->set].rho0);
+            sum_pair(s, i, &p, w_dx, &size, spread, &cover);
         }
         /* the smallest eigenvalue: that of the axes which the dimension has not is out of the way */
         for (int k = SPH_DIM; k < 3; k++)
