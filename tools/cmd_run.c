@@ -316,7 +316,7 @@ static void say_density(const run *r)
 {
     const char *s = build_unit(&r->scene, "s");
     if (r->thinnest > 0 && r->thinnest < THIN)
-        fprintf(stderr, "note: density of fluid fell to %.3g of that at rest, t %.5g %s (limit %g): spray, or tension\n",
+        fprintf(stderr, "note: density of fluid fell to %.3g of that at rest, t %.5g %s (limit %g): spray or tension\n",
                 r->thinnest, r->thin_time, s, THIN);
     if (r->densest > DENSE)
         fprintf(stderr, "note: density of fluid rose to %.3g of that at rest, t %.5g %s (limit %g): sound too slow, or "
