@@ -139,7 +139,8 @@ static bool counts(const advice *a, uint32_t s)
 {
     const study *t = &a->tables.study[s];
     const size_t n = strcspn(t->unit, " ");
-    return (!a->study || !strcmp(t->name, a->study)) && (!a->norm || has_word(t->quantity, a->norm)) && strlen(a->unit) == n && !memcmp(t->unit, a->unit, n);
+    const bool asked = (!a->study || !strcmp(t->name, a->study)) && (!a->norm || has_word(t->quantity, a->norm));
+    return asked && strlen(a->unit) == n && !memcmp(t->unit, a->unit, n);
 }
 
 /* the worst error of a choice in the studies of a mask, negative if one of them has no such run */
