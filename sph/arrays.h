@@ -27,6 +27,8 @@
     /* POWER_... of a particle, per unit mass */                                                                      \
     MANY(power, sph_real, SPH_POWERS, SPH_ROOM(c), sph_keeps_books(c), "powers for the books")                        \
     ONE(sponge, double, c->max_particles / SPH_LOCAL_CHUNK + 1, c->sponge_rate > 0, "absorbed energy of chunks")      \
+    MANY(disorder, sph_real, SPH_DIM + 1, SPH_ROOM(c), sph_shifts(c), "disorder") /* shifting.c */                    \
+    ONE(shifted, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_shifts(c), "energy of shifting, of chunks")     \
     /* SPH_PARTIALS of each chunk */                                                                                  \
     ONE(partial, double, (size_t)SPH_PARTIALS * (c->max_particles / SPH_LOCAL_CHUNK + 1), sph_keeps_books(c),         \
         "partial sums for the books")

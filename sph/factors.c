@@ -92,7 +92,7 @@ void sph_make_factors(sph_sim *sim)
     f->reach2 = (sph_real)(support * support * h * h * 1.0001);
     f->slope = (sph_real)slope;
     f->value = (sph_real)value;
-    if (sph_repels(c) || sph_is_total(c)) {
+    if (sph_repels(c) || sph_is_total(c) || sph_shifts(c)) {
         double at, dw;
         sph_kernel_value(c->kernel, c->spacing, h, &at, &dw);
         f->inv_wdx = at > 0 ? (sph_real)(value / at) : 0;
@@ -105,6 +105,7 @@ void sph_make_factors(sph_sim *sim)
     f->av_beta = (sph_real)(2 * h * h * c->beta);
     f->morris = SPH_WITH_MORRIS ? (sph_real)(4 * c->nu) : 0;
     f->diff = SPH_HAS_DIFFUSION ? (sph_real)(2 * c->delta * h * c->sound_speed) : 0;
+    f->most_inv_rho = (sph_real)(2 / c->rho0);
     const double c2 = c->sound_speed * c->sound_speed * (SPH_IS(c->eos, TAIT_GRAY) ? 7 : 1);
     for (int k = 0; k < SPH_DIM; k++) {
         f->gravity[k] = (sph_real)c->gravity[k];

@@ -5,7 +5,7 @@
      continuity.h   rate of density             viscosity.h    artificial, Morris            diffusion.h    of density
      pressure.h     force of the pressure       stress.h       force of the stress, and the velocity gradient
      gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
-     xsph.h         drift beside the velocity   pair_power.h   the books
+     xsph.h         drift beside the velocity   pair_power.h   the books                     shift_sums.h   disorder
 
    Kick-drift-kick and leap-frog sum rates and forces in sweeps of their own (choice `part`): with the same bits as both
    at once, of which each would use a half.
@@ -20,6 +20,7 @@
 #include "pair_power.h"
 #include "pressure.h"
 #include "reference.h"
+#include "shift_sums.h"
 #include "stress.h"
 #include "viscosity.h"
 #include "xsph.h"
@@ -78,7 +79,7 @@ SPH_INLINE void kernel(const at_home *o, sph_near *p)
     p->mg = k_slope(o->c->kernel, p->q) * v_load(o->tile->m + p->j);
     p->rho = v_load(o->tile->rho + p->j);
     p->press = v_load(o->tile->press + p->j);
-    p->inv_rho = sph_needs_inv_rho(o->c->scheme, o->c->diffusion) ? v_load(o->tile->inv_rho + p->j) : p->rho;
+    p->inv_rho = sph_needs_inv_rho(o->c) ? v_load(o->tile->inv_rho + p->j) : p->rho;
 }
 
 /* what pressure, contact and viscosity push, and Morris's drag */
@@ -125,6 +126,7 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     sph_diffusion(c, o->f, o->home, &p, s);
     sph_xsph(c, o->home, &p, s);
     sph_pair_power(c, o->home, &p, s);
+    sph_shift_sums(c, o->f, &p, s);
 }
 
 SPH_INLINE void pair_bodies(const void *what, uint32_t j, vreal *s) { pair(what, false, j, s); }
@@ -143,8 +145,10 @@ SPH_INLINE uint32_t book_sums(const sph_choice *c, bool wall)
 /* the sums that these choices take */
 SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
 {
-    const uint32_t gradient = SPH_WITH_SOLID && c->solid ? SUM_MASK(GRADIENT) : 0, rates = SUM_MASK(DRHO) | gradient;
+    const uint32_t gradient = SPH_WITH_SOLID && c->solid ? SPH_SUM_MASK(SUM_GRADIENT, SPH_NL) : 0;
+    const uint32_t rates = SUM_MASK(DRHO) | gradient;
     const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
+                            (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS) : 0) |
                             (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0);
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
 }
@@ -260,6 +264,16 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
     X(s_w2_r, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .repulsion = 4)                  \
     X(s_w2_t, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .total = 1)
 
+/* forces, and with them the sums of shifting; the books want diffusion */
+#define SPH_FAST_SHIFTING(X)                                                                                       \
+    X(f_w2_s, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .shifting = 1, .part = SPH_PART_FORCES)      \
+    X(f_w2_ws, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = 1, .shifting = 1,                   \
+      .part = SPH_PART_FORCES)                                                                                     \
+    X(f_w2_hbs, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1,  \
+      .shifting = 1, .part = SPH_PART_FORCES)                                                                      \
+    X(f_w2_hbws, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1, \
+      .wall = 1, .shifting = 1, .part = SPH_PART_FORCES)
+
 /* rates and forces apart: kick-drift-kick and leap-frog */
 #define SPH_FAST_PARTS(X)                                                                                          \
     X(r_w2, .kernel = SPH_WENDLAND_C2, .part = SPH_PART_RATES)                                                     \
@@ -316,6 +330,9 @@ typedef void fast_path(const sph_sim *sim, sph_thread *t, uint32_t homes);
 #if SPH_WITH_FAST_PATHS
 SPH_FAST_FORCES(SPH_FAST_FN)
 #endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHIFTING
+SPH_FAST_SHIFTING(SPH_FAST_FN)
+#endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_BONET_LOK
 SPH_FAST_CORRECTED(SPH_FAST_FN)
 #endif
@@ -340,6 +357,9 @@ static const struct {
 #endif
 #if SPH_WITH_FAST_PATHS
     SPH_FAST_FORCES(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHIFTING
+    SPH_FAST_SHIFTING(SPH_FAST_ROW)
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_BONET_LOK
     SPH_FAST_CORRECTED(SPH_FAST_ROW)
@@ -398,7 +418,8 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .summed = sph_sums_density(c),
                         .loses = books && sim->fac.loses,
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0),
-                        .part = (uint8_t)part};
+                        .part = (uint8_t)part,
+                        .shifting = forces && sph_shifts(c)};
 }
 
 /* what the tiles of bodies must be of one kind for (sph_sweep.apart) */
@@ -429,6 +450,7 @@ static const sph_factors *factors_of(const sph_sim *sim, sph_thread *t, uint32_t
     const sph_set *i = &sim->set[t->home_set[h]], *j = ghosts ? i : t->of;
     const double c2 = i->c0 * i->c0 * (SPH_IS(i->eos, TAIT_GRAY) ? 7 : 1);
     *f = sim->fac;
+    f->most_inv_rho = (sph_real)(2 / i->rho0);
     f->av_alpha = (sph_real)(c->smoothing_length * c->alpha * (i->c0 + j->c0));
     if (SPH_HAS_DIFFUSION)
         f->diff = i->kin == j->kin ? (sph_real)(2 * c->delta * c->smoothing_length * i->c0) : 0;
@@ -621,6 +643,8 @@ SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
         a2 += acc[k] * acc[k];
         v2 += t->home.v[k][h] * t->home.v[k][h];
     }
+    if (sph_shifts(&sim->cfg))
+        sph_finish_shift(sim, t, h);
     t->peaks.mu = larger(t->peaks.mu, v_fold_max(t->sum[SUM_MU][h]));
     t->peaks.acc = larger(t->peaks.acc, a2);
     t->peaks.speed = larger(t->peaks.speed, v2);
@@ -662,7 +686,7 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_sweep w = {is_force_home,
                          SPH_BODIES | 1u << SPH_ROLE_GHOST | (points ? 1u << SPH_ROLE_FORCE_WALL : 0),
                          sums_of(&c, true) | (points && (c.books || sim->has_force_wall) ? SUM_MASK(BOUNDARY) : 0),
-                         sph_needs_inv_rho(c.scheme, c.diffusion),
+                         (uint8_t)sph_needs_inv_rho(&c),
                          columns_of(&c),
                          force_tile,
                          force_finish,

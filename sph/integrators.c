@@ -250,7 +250,8 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 #define SUMMED(pass) (SPH_WITH_SUMMATION ? (pass) : NULL)
 
 /* what a step ends with */
-#define END(pass) &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge)
+#define END(pass)                                                                                                  \
+    &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge), MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
 
 typedef const sph_pass *const list[];
 static list first_forces = {&pass_begin, SORT, DENSITIES, FORCES, &pass_prime};

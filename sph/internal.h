@@ -80,8 +80,9 @@ typedef struct sph_peaks {
 /* constants of the pair formulas (factors.c) */
 typedef struct sph_factors {
     sph_real inv_h, eta, eta_morris, reach, reach2, slope, value;
-    sph_real inv_wdx, repulsion; /* artificial stress: 1/(W(dx) without its scale), epsilon */
+    sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
+    sph_real most_inv_rho;       /* diffusion: of a neighbour, 2/rho0 (tiles.c) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
     bool rate_by_density, continuity, extras;
     bool loses, bonds;           /* books: the form does not conserve energy; contact or artificial stress */
@@ -259,6 +260,7 @@ SPH_INLINE bool sph_has_any_mirrors(const sph_config *c)
     return sph_has_mirrors(c, 0) || (SPH_DIM > 1 && sph_has_mirrors(c, SPH_DIM > 1)) ||
            (SPH_DIM > 2 && sph_has_mirrors(c, SPH_DIM - 1));
 }
+SPH_INLINE bool sph_shifts(const sph_config *c) { return SPH_WITH_SHIFTING && c->shifting > 0; }
 SPH_INLINE bool sph_filters(const sph_config *c) { return SPH_WITH_SHEPARD && c->shepard_every != 0; }
 
 SPH_INLINE bool sph_has_solids(const sph_config *c) { return SPH_WITH_SOLID && c->solid != SPH_NO_SOLID; }

@@ -20,6 +20,7 @@
 #ifndef SPH_OPTIONS_H
 #define SPH_OPTIONS_H
 
+#include "shifting.h"
 #include "sponge.h"
 /* larger magnitudes are refused: squares of them must stay finite in a float's range */
 #define SPH_HUGE 1e30f
@@ -83,7 +84,7 @@
       "one of SPH_NO_DIFFUSION .. SPH_HYDROSTATIC", FIXED, "-", "density diffusion: none molteni hydrostatic",        \
       "diffusion", "-", 0, SPH_DIFFUSIONS - 1, OWN)                                                                   \
     P(A, delta, REAL, 0.1, 0, 10, true, "0 .. 10", FIXED, "-", "strength of the density diffusion",                   \
-      "delta", "-", 0, 10, USUAL)                                                                                     \
+      "delta", "-", 0, 10, OWN)                                                                                     \
     P(A, gradient, CHOICE, SPH_PLAIN, 0, SPH_GRADIENTS, SPH_GRADIENTS_IN, "one of SPH_PLAIN .. SPH_RENORMALISED",     \
       FIXED, "-", "gradients of fluids: plain bonet_lok renormalised", "gradient", "-", 0, SPH_GRADIENTS - 1, USUAL)  \
     P(A, xsph, REAL, 0, 0, 1, SPH_WITH_XSPH, "0 .. 1", FIXED, "-", "XSPH factor; 0: off", /* usual: 0.5; Gray 2.22 */ \
@@ -135,6 +136,7 @@
       "strain rates from the smoothed velocity (Gray 2001 eq 5.10; needs xsph; costs a sweep)")                       \
     O(A, max_stretch, REAL, 1.25, 1, 8, true, "1 .. 8", FIXED, "-",                                                   \
       "SPH_TOTAL: how far a bond may be drawn, in supports; cells grow with it")                                      \
+    SPH_SHIFTING_OPTIONS(O, P, A)                                                                                     \
     SPH_SPONGE_OPTIONS(O, P, A)                                                                                       \
     SPH_EXTRA_OPTIONS(O, P, A)
 

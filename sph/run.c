@@ -272,6 +272,23 @@ void sph_step_cancel(sph_sim *sim)
 
 double sph_time(const sph_sim *sim) { return sim ? sim->now.time : 0; }
 
+/* rho/rho0 of the fluid */
+static void find_densities(const sph_sim *sim, sph_step_info *out)
+{
+    const sph_buffer *b = &sim->buf[sim->cur];
+    sph_real low = 99, high = -1;
+    for (uint32_t i = 0, e; i < sim->now.count; i = e) {
+        e = sph_run_end(b->set[0], i, sim->now.count);
+        const bool fluid = b->set[0][i] != SPH_DEAD && sim->set[b->set[0][i]].role == SPH_ROLE_FLUID;
+        for (uint32_t j = i; j < e && fluid; j++) {
+            low = b->rho[0][j] < low ? b->rho[0][j] : low;
+            high = b->rho[0][j] > high ? b->rho[0][j] : high;
+        }
+    }
+    out->thinnest = high < low ? 0 : 1 + (double)low;
+    out->densest = high < low ? 0 : 1 + (double)high;
+}
+
 void sph_get_step(const sph_sim *sim, sph_step_info *out)
 {
     if (!sim || !out)
@@ -289,4 +306,5 @@ void sph_get_step(const sph_sim *sim, sph_step_info *out)
     out->crossed = sim->now.crossed;
     out->put_back = sim->now.put_back;
     out->reflected = sim->now.reflected;
+    find_densities(sim, out);
 }

@@ -12,7 +12,7 @@
 #define SPH_HOMES 16u /* a multiple of 8 */
 #define SPH_HOME_ROOM (SPH_HOMES + SPH_LANES)
 #define SPH_SUMS                                                                                                   \
-    ((SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12) + (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0) +                      \
+    ((SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : 12) + SPH_TENSOR_SUMS_ +                                              \
      (SPH_WITH_BOOKS ? 1 + SPH_HAS_LAYERED_WALLS + SPH_WITH_SOLID : 0))
 #define SPH_SWEEP_CHUNK 32u  /* cells */
 #define SPH_SLICE_CHUNK 1u   /* cells, in a step that is done in slices */
@@ -33,7 +33,7 @@ typedef struct sph_tile {
     sph_real m[SPH_TILE_ROOM];           /* kg */
     sph_real rho[SPH_TILE_ROOM];         /* kg/m^3 */
     sph_real press[SPH_TILE_ROOM];       /* standard schemes: p/rho^2; others: p */
-    sph_real inv_rho[SPH_TILE_ROOM];     /* 1/rho, where a formula needs it */
+    sph_real inv_rho[SPH_TILE_ROOM];     /* 1/rho, where a formula needs it (sph_sweep.needs_inv_rho) */
 } sph_tile;
 
 /* what a boundary-force particle brings */

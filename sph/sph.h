@@ -166,12 +166,13 @@ enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_S
    kinematic viscosity nu (Morris, Fox & Zhu 1997, with the mean of both densities). */
 enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
 
-/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W over what is of one material; it limits the
-   step to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi = (rho_j -
-   rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the two
-   positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so still water
-   stays still. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial viscosity the
-   mean of both. */
+/* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W over what is of one material, with rho_j
+   in m_j/rho_j not below rho0/2 (spray loses density without bound, and would blow diffusion up); it limits the step
+   to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi = (rho_j -
+   rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
+   two positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so still
+   water stays still. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial
+   viscosity the mean of both. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
 
 /* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of
@@ -210,6 +211,15 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
    solid, not walls nor axes that are held, exactly and once a step, at its end: velocities inside a layer stand half a
    step of damping ahead. What it takes is `absorbed` in sph_totals, with or without books. SPH_ARENA_BYTES: or in
    SPH_USE_BOOKS. Waves want layers of a wavelength or more, and rate width/c about 10 (tests/lab/atlas_sponge.csv). */
+
+/* Particle shifting, `shifting` its strength C, 0: off: at a step's end each particle of fluid drifts from where
+   others are dense to where they are sparse, -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W, at most 0.05 dx; not
+   near a surface (Lind, Xu, Stansby & Rogers 2012; shifting.c). V is m/rho, but in weak schemes at most 2 m/rho0. It
+   keeps the particles even, and with that the pressure free of noise: wants h 2 dx, and with C 0.5 so little viscosity
+   as alpha 0.005. Deep inside density goes slowly to where the particles' volumes fill space, so that a tank does not
+   swell. Momentum stays, angular momentum does not; what is taken of potential and internal energy is `shifted` in
+   sph_totals, with or without books (where density is summed, of the potential energy only). Not in scenes with
+   solids. SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
 
 /* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
    (any of the four; PUT_BACK sets it 0.1 spacings off the wall, without its velocity into the wall). */
@@ -291,6 +301,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_YIELD 128u
 #define SPH_USE_DAMAGE 256u /* flaws: 4 bytes each, to be added */
 #define SPH_USE_MIRRORS 512u /* symmetry or no-slip mirror faces */
+#define SPH_USE_SHIFTING 1024u
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
@@ -305,18 +316,24 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_BOOKS) ? 7u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
-     (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u))
+     (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
+     (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
+/* sums of a velocity gradient, or of shifting */
+#define SPH_TENSOR_SUMS_                                                                                    \
+    SPH_MAX_(SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0u,                                                       \
+             SPH_WITH_SHIFTING ? SPH_DIM + 1u + SPH_DIM * (SPH_DIM + 1u) / 2u : 0u)
 #define SPH_SCRATCH_BYTES /* a thread */                                                                    \
     (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) +                                            \
-      (SPH_WITH_SOLID ? SPH_DIM * SPH_DIM * 512u : 0u)) * (SPH_DOUBLE ? 2u : 1u))
+      SPH_TENSOR_SUMS_ * 512u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SOLID_SCRATCH_BYTES /* with solids besides */                                                   \
     ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
-     ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) * (((use)&SPH_USE_BOOKS) ? 64u : 0u))
+     ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
+         (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING)) ? 64u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
 #ifdef __cplusplus
 #define SPH_ARENA(name, bytes) unsigned char name alignas(SPH_ALIGN)[bytes]
@@ -618,6 +635,9 @@ typedef struct sph_step_info {
     uint64_t work;        /* work units */
     uint32_t passes;      /* passes run */
     uint32_t left, crossed, put_back, reflected; /* particles: since init */
+    double thinnest, densest; /* rho/rho0 of the fluid now, looked up in all particles; 0: there is none. Far below 1:
+                                 spray, which loses density by continuity, or tension; far above: sound is too slow, or
+                                 a wall squeezes */
 } sph_step_info;
 #define sph_get_step SPH_NAME(get_step)
 void sph_get_step(const sph_sim *sim, sph_step_info *out);
@@ -649,10 +669,11 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges, inspection -----------------------------------------------------------------------*/
 /* Books of what happens at once, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
-   the state, its digest and dumps follow from the list. `c`: the configuration. The first two are kept in every scene,
-   the others where the scene asks for books. */
+   the state, its digest and dumps follow from the list. `c`: the configuration. The first three are kept in every
+   scene, the others where the scene asks for books. */
 #define SPH_BOOKS(X)                                                                                                  \
-    X(absorbed, "J", c->sponge_rate > 0, "kinetic energy that sponge layers took")                                    \
+    X(absorbed, "J", SPH_WITH_SPONGE && c->sponge_rate > 0, "kinetic energy that sponge layers took")                 \
+    X(shifted, "J", SPH_WITH_SHIFTING && c->shifting > 0, "energy that shifting took; < 0: gave")                     \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
     X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                             \
     X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")             \
@@ -664,7 +685,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
      d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes,
    to rounding; the powers are integrated over time by the trapezoidal rule, and
      balance = kinetic + potential + internal + elastic + plastic_work - wall_work - body_work + dissipated + diffused
-             + in_walls + in_bonds + unbalanced + absorbed + carried_off + released + put_back_loss + filtered + damped
+             + in_walls + in_bonds + unbalanced + absorbed + shifted + carried_off + released + put_back_loss
+             + filtered + damped
    stays (plastic_work to first order in dt; gravity changed by sph_reconfigure shifts the potential). Without books it
    is what can be summed without them. `unbalanced` is 0 but for DIRECT, the printed continuity forms, WEAK schemes with
    summed density, MIRROR_NO_SLIP, xsph_strain, the drift of XSPH in gravity, and solids, whose Jaumann rate stores

@@ -74,7 +74,7 @@ typedef struct sph_sweep {
     bool (*home)(const sph_sim *sim, const sph_set *set);
     uint32_t classes;     /* an or of 1 << SPH_ROLE_... that are candidates */
     uint32_t sums;        /* an or of 1 << row of sph_thread.sum */
-    bool needs_inv_rho;
+    uint8_t needs_inv_rho; /* true: 1/rho; SPH_BOUNDED: of candidates 1/max(rho, rho0/2) */
     uint32_t columns;     /* an or of 1 << SPH_COLUMN_... */
     void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role); /* add a tile to the homes' sums */
     void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                     /* a home's sums are complete */
@@ -117,7 +117,8 @@ bool sph_poison_thread(const sph_sim *sim, sph_thread *t);
 
 /* tiles.c: the columns of every tile, for a run; `homes`: into the tile of homes */
 #define sph_load_tile SPH_NAME(load_tile_)
-void sph_load_tile(const sph_candidates *r, sph_tile *t, bool needs_inv_rho, bool homes);
+enum { SPH_BOUNDED = 2 };
+void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t inv_rho, bool homes);
 #define sph_load_points SPH_NAME(load_points_)
 void sph_load_points(const sph_candidates *r, sph_points *t);
 /* makes the columns behind the last candidate harmless: far away, without mass */

@@ -21,12 +21,17 @@
     X(IN_BONDS, SPH_WITH_BOOKS && SPH_WITH_SOLID ? 1 : 0)                                                          \
     X(UNBALANCED, SPH_WITH_BOOKS ? 1 : 0)                                                                          \
     X(BOUNDARY, 1)                                                                                                 \
-    X(GRADIENT, SPH_WITH_SOLID ? SPH_NL : 0)
+    X(GRADIENT, SPH_MAX_(SPH_WITH_SOLID ? SPH_NL : 0, SPH_WITH_SHIFTING ? SPH_SHIFT_ROWS : 0))
+/* without solids that room is for shifting (shift_sums.h) */
+#define SPH_SHIFT_ROWS (SPH_DIM + 1 + SPH_NT)
 enum {
 #define SPH_SUM_ENUM(name, rows) SUM_##name, SUM_##name##_LAST = SUM_##name + (rows) - 1,
     SPH_FORCE_SUMS(SPH_SUM_ENUM)
 #undef SPH_SUM_ENUM
-        SUM_ROWS
+        SUM_ROWS,
+    SUM_SHIFT = SUM_GRADIENT,
+    SUM_COVER = SUM_SHIFT + SPH_DIM,
+    SUM_SPREAD = SUM_COVER + 1
 };
 #define SUM_MASK(name) SPH_SUM_MASK(SUM_##name, SUM_##name##_LAST + 1 - SUM_##name)
 _Static_assert(SUM_ROWS <= SPH_SUMS, "SPH_SUMS is too small");
@@ -45,7 +50,8 @@ typedef struct sph_choice {
     uint8_t summed;            /* density by summation */
     uint8_t part;              /* SPH_PART_... */
     uint8_t apart;             /* the factors are of one kind of pairs */
-    uint8_t spare[7];
+    uint8_t shifting;          /* the sums of shifting */
+    uint8_t spare[6];
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 24, "sph_choice is compared as three words (forces.c)");
 SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }
@@ -55,9 +61,12 @@ SPH_INLINE bool sph_rate_by_density(uint32_t scheme, uint32_t gradient)
 {
     return sph_weak_scheme(scheme) || SPH_IS(gradient, BONET_LOK);
 }
-SPH_INLINE bool sph_needs_inv_rho(uint32_t scheme, uint32_t diffusion)
+/* for sph_sweep.needs_inv_rho */
+SPH_INLINE uint32_t sph_needs_inv_rho(const sph_choice *c)
 {
-    return sph_weak_scheme(scheme) || sph_diffusive(diffusion);
+    if (sph_weak_scheme(c->scheme))
+        return true;
+    return sph_diffusive(c->diffusion) || (SPH_WITH_SHIFTING && c->shifting) ? SPH_BOUNDED : false;
 }
 
 /* what a home particle brings to each pair, spread over the lanes once */

@@ -29,13 +29,16 @@ typedef struct tile_choice {
    |v_ij|/2 of the kernel's edge, where its slope is of second order or higher in that distance. An image goes the
    image's way.
 
+   least: the least rho/rho0 whose inverse is taken. By continuity spray loses density without bound; the volumes of
+   such particles, m/rho, would take diffusion beyond what the step is chosen for (factors.c), and densities below 0.
+
    Whole strides are written: what lies beyond the last is filled with whatever follows in memory, and overwritten by
    the next run or by sph_close_tile. */
-SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copied, tile_choice c)
+SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real least, uint32_t copied, tile_choice c)
 {
     const sph_sim *sim = r->sim;
     const vreal m = v_set(r->set->mass_r), r0 = v_set(r->set->rho0_r), b = v_set(r->set->b_r);
-    const vreal quantum = v_set((sph_real)sim->grid.quantum);
+    const vreal quantum = v_set((sph_real)sim->grid.quantum), lowest = v_set(least) * r0;
     const uint32_t at = t->n, s = r->first, n = r->n;
     const sph_real *const excess = r->b->rho[0] + s;
     const sph_pos *pos[SPH_DIM];
@@ -72,7 +75,7 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, uint32_t copi
             v_store(t->rho + at + j, rho);
             v_store(t->press + at + j, c.ratio && c.press ? p / (rho * rho) : p);
             if (c.inv_rho)
-                v_store(t->inv_rho + at + j, 1 / rho);
+                v_store(t->inv_rho + at + j, 1 / v_max(rho, lowest));
         }
 }
 
@@ -85,7 +88,7 @@ SPH_INLINE bool drifts_beside(const sph_candidates *r, bool wall)
     return sph_in_middle(r->sim) && !wall && sph_drift(r->b, 0) != NULL;
 }
 
-SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
+SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bool inv_rho)
 {
     const sph_config *c = &r->sim->cfg;
     const bool floor = c->pressure_floor && !sph_is_solid(r->set), wall = r->set->role == SPH_ROLE_GHOST;
@@ -98,7 +101,7 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
                              SPH_HAS_LAYERED_WALLS && wall,
                              SPH_HAS_IMAGES && r->im->is_image,
                              drifts_beside(r, wall)};
-    load_columns(r, t, COPIED, own);
+    load_columns(r, t, least, COPIED, own);
 }
 
 /* Tait's water in a standard scheme, solids with the linear equation of state, or rates in a standard scheme, in the
@@ -122,16 +125,20 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, bool inv_rho)
     X(rates_wall, TAIT, false, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                        \
     X(rates_wall_diffusive, TAIT, false, true, false, SPH_HAS_LAYERED_WALLS, COPIED)
 #define SPH_FAST_FN(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                           \
-    SPH_APART void load_##name(const sph_candidates *r, sph_tile *t)                                               \
+    SPH_APART void load_##name(const sph_candidates *r, sph_tile *t, sph_real least)                               \
     {                                                                                                              \
         const tile_choice own = {SPH_##eos_, true, floor_, inv_rho_, press_, !(press_), wall_, false, false};      \
-        load_columns(r, t, copied, own);                                                                           \
+        load_columns(r, t, least, copied, own);                                                                    \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
 #undef SPH_FAST_FN
 
-void sph_load_tile(const sph_candidates *r, sph_tile *t, bool inv_rho, bool homes)
+#define LEAST_DENSITY ((sph_real)0.5) /* of that at rest */
+
+void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool homes)
 {
+    const bool inv_rho = asked != 0;
+    const sph_real least = asked == SPH_BOUNDED && !homes ? LEAST_DENSITY : -1; /* -1: all of them */
     const sph_config *c = &r->sim->cfg;
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, press = needs_press(r->sim);
     const bool floor = press && c->pressure_floor && !sph_is_solid(r->set);
@@ -144,12 +151,12 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, bool inv_rho, bool home
 #define SPH_FAST_TRY(name, eos_, floor_, inv_rho_, press_, wall_, copied_)                                         \
     if (usual && eos == SPH_##eos_ && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) &&           \
         wall == (wall_) && copied == (copied_)) {                                                                  \
-        load_##name(r, t);                                                                                         \
+        load_##name(r, t, least);                                                                                  \
         return;                                                                                                    \
     }
     SPH_FAST_LOADS(SPH_FAST_TRY)
 #undef SPH_FAST_TRY
-    load_any(r, t, inv_rho);
+    load_any(r, t, least, inv_rho);
 }
 
 void sph_load_points(const sph_candidates *r, sph_points *t)

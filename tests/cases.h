@@ -20,6 +20,7 @@ typedef struct bits_case {
     bool hat, held, beside;               /* strain rates smoothed; one end held and pulled; a gas beside the rock */
     uint32_t gradient;
     uint32_t sponge;                      /* SPONGE_... */
+    bool shifting;
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -119,6 +120,14 @@ static const bits_case bits_cases[] = {
     {"sponge_kick_drift_kick", CASE_BASE, .integrator = SPH_KICK_DRIFT_KICK, .face = SPH_SYMMETRY,
      .sponge = SPONGE_LOW},
     {"sponge_solid", CASE_SOLID, .solid = SPH_UPDATED, .sponge = SPONGE_HIGH},
+    {"shifting", CASE_BASE, .shifting = true},
+    {"shifting_kick_drift_kick", CASE_BASE, .shifting = true, .integrator = SPH_KICK_DRIFT_KICK,
+     .diffusion = SPH_HYDROSTATIC, .floor = true, .books = true},
+    {"shifting_ghost", .kernel = SPH_QUINTIC, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .shifting = true,
+     .integrator = SPH_RUNGE_KUTTA, .scheme = SPH_WEAK, .xsph = true, .slip_less = true},
+    {"shifting_periodic", CASE_BASE, .shifting = true, .face = SPH_PERIODIC, .integrator = SPH_LEAP_FROG},
+    {"shifting_symmetry", CASE_BASE, .shifting = true, .face = SPH_SYMMETRY, .integrator = SPH_KICK_DRIFT_KICK,
+     .gradient = SPH_BONET_LOK},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -201,6 +210,7 @@ static sph_config case_config(const bits_case *b)
             c.gravity[0] = 0;
     }
     case_sponge(&c, b->sponge);
+    c.shifting = b->shifting ? 0.5 : 0;
     c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
     return c;
 }

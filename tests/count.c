@@ -4,7 +4,7 @@
 
      count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
                             total: its block of a solid; default, no_books: the scene dam_break or dam_break_3d as it
-                            is, and without books */
+                            is, and without books; shifting: as it is, with its particles shifted */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 
@@ -18,8 +18,8 @@ static void correct(sph_config *c)
 #endif
 }
 
-/* a scene with the defaults of its table, but for n and books */
-static tank scene_tank(const char *name, uint32_t n, bool books)
+/* a scene with the defaults of its table, but for n and what it is asked to leave out or to do besides */
+static tank scene_tank(const char *name, uint32_t n, const char *how)
 {
     static double p[64]; /* motions of a scene would read it */
     const scene *s = NULL;
@@ -30,7 +30,10 @@ static tank scene_tank(const char *name, uint32_t n, bool books)
     check(NULL, s && s->params <= 64 ? SPH_OK : SPH_BAD_ARGUMENT, name);
     for (uint32_t i = 0; i < s->params; i++)
         p[i] = strcmp(s->param[i].name, "n") == 0 ? n : s->param[i].value;
-    p[SCENE_OF_books] = books;
+    p[SCENE_OF_books] = strcmp(how, "no_books") != 0;
+#ifdef SPH_WITH_SHIFTING /* as above */
+    p[SCENE_OF_shifting] = strcmp(how, "shifting") == 0 ? 0.5 : 0;
+#endif
     s->configure(p, &c);
     t.bytes = sph_arena_bytes(&c);
     t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
@@ -47,7 +50,7 @@ int main(int argc, char **argv)
     unsigned long long done = 0;
     tank t;
     if (argc != 4) {
-        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books N STEPS\n");
+        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|shifting N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);
@@ -60,7 +63,7 @@ int main(int argc, char **argv)
     else if (strcmp(argv[1], "total") == 0)
         t = block(n, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, false);
     else
-        t = scene_tank(dam_break, n, strcmp(argv[1], "default") == 0);
+        t = scene_tank(dam_break, n, argv[1]);
     for (uint32_t k = 0; k < steps; k++) {
         check(t.sim, sph_step(t.sim), "step");
         done += sph_count(t.sim);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* random_scene.h: small scenes that a number draws: every choice of the configuration, every kind of wall, fluids and
-   solids, faces of every kind, motions, gates, flaws, sponges. Two calls with one number make the same scene. */
+   solids, faces of every kind, motions, gates, flaws, sponges, shifting. Two calls with one number make the same
+   scene. */
 #ifndef SPH_RANDOM_SCENE_H
 #define SPH_RANDOM_SCENE_H
 
@@ -37,6 +38,7 @@ static UNUSED void scene_fluids(sph_config *c)
     c->scheme = scene_draw(SPH_SCHEMES);
     c->eos = c->scheme > SPH_DIRECT ? SPH_ISOTHERMAL : scene_draw(SPH_EOSES);
     c->density = scene_one_in(4) ? SPH_SUMMATION : SPH_CONTINUITY;
+    c->shifting = scene_one_in(3) ? scene_toss(0.2, 2) : 0;
     if (c->density == SPH_CONTINUITY) {
         c->diffusion = scene_draw(SPH_DIFFUSIONS);
         c->shepard_every = scene_one_in(3) ? 2 : 0;

@@ -192,6 +192,29 @@ static void several_norms_are_all_met(void **state)
     says("alone       loss: 0.1 %");
 }
 
+/* norm= takes the studies that have the word */
+static void a_norm_chooses_studies(void **state)
+{
+    (void)state;
+#define OF(study, words) "# quantity: " words "\n" HEAD(study, "wave", "%")
+    put_table("a.csv", OF("front", "front level"), "method,a,float,1,,1,1,1,10,10,1,,n=1\n"
+                                                   "method,b,float,2,,0.5,1,1,40,40,1,,n=2\n");
+    put_table("b.csv", OF("noise", "pressure noise"), "method,a,float,1,,9,1,1,10,10,1,,n=1\n"
+                                                      "method,b,float,2,,1.5,1,1,40,40,1,,n=2\n");
+    put_table("c.csv", OF("peak", "pressure peak"), "method,b,float,2,,5,1,1,40,40,1,,n=2\n"
+                                                    "method,c,float,3,,0.2,1,1,70,70,1,,n=3\n");
+    assert_int_equal(advise("wave", "error=2%", "norm=front"), 0);
+    says("run         sph run wave n=1\n");
+    says_not("alone");
+    assert_int_equal(advise("wave", "error=2%", "norm=noise"), 0);
+    says("run         sph run wave n=2\n");
+    assert_int_equal(advise("wave", "error=6%", "norm=pressure"), 0); /* both of them */
+    says("run         sph run wave n=2\n");
+    says("alone       peak: 5 %, 40");
+    assert_int_equal(advise("wave", "error=2%", "norm=press"), 2);
+    assert_int_equal(advise("wave", "error=2%", "norm="), 2);
+}
+
 static void a_scene_without_a_study_is_not_known(void **state)
 {
     (void)state;
@@ -275,6 +298,7 @@ int main(void)
         test(what_was_right_by_luck_is_left_out),
         test(what_is_not_reached_is_said_and_not_extrapolated),
         test(several_norms_are_all_met),
+        test(a_norm_chooses_studies),
         test(a_scene_without_a_study_is_not_known),
         test(a_table_that_is_not_whole_is_refused),
         test(wrong_usage_is_refused),

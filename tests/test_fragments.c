@@ -134,6 +134,32 @@ static void a_crack_makes_two(void **state)
 }
 
 /* what is stored is D^(1/2) in two dimensions */
+static void water_and_its_drops_are_counted(void **state)
+{
+    table t;
+    const double drop[2][2][3] = {{{2, 2, 0}, {2.1, 2.1, 0}}, {{2.3, 0.5, 0}, {2.35, 0.55, 0}}}, hi[3] = {1, 1, 0};
+    synth *s = synth_new(2, 0.05, 4, 2, 0);
+    (void)state;
+    synth_box(s, 0, zero, hi);
+    synth_box(s, 0, drop[0][0], drop[0][1]);
+    synth_box(s, 0, drop[1][0], drop[1][1]);
+    for (uint32_t i = 0; i < s->n; i++)
+        s->part[i].damage = 1; /* fluids have none */
+    s->set[0].role = 0;
+    synth_write(s, dump);
+    assert_int_equal(run(dump, NULL, NULL, NULL), 1); /* nothing solid */
+    assert_int_equal(pieces(&t, "of=fluid", NULL), 3);
+    close_to(cell(&t, 0, "particles"), 400, 0);
+    close_to(cell(&t, 1, "particles"), 4, 0);
+    close_to(cell(&t, 2, "particles"), 1, 0);
+    table_close(&t);
+    assert_int_equal(count("of=fluid", "least=2"), 2);
+    assert_int_equal(run(dump, "of=water", NULL, NULL), 2);
+    s->set[0].role = 3;
+    synth_write(s, dump);
+    assert_int_equal(run(dump, "of=fluid", NULL, NULL), 1);
+}
+
 static void the_threshold_is_of_damage_itself(void **state)
 {
     synth *s = plate();
@@ -356,6 +382,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         test(an_unbroken_plate_is_one_piece),
         test(a_crack_makes_two),
+        test(water_and_its_drops_are_counted),
         test(the_threshold_is_of_damage_itself),
         test(diagonal_neighbours_are_linked),
         test(the_order_of_the_arrays_does_not_matter),

@@ -120,6 +120,64 @@ static void the_limits_of_the_step_are_the_printed_ones(void **state)
     close_to(sph_time(sim), info.dt, 1e-15);
 }
 
+#if SPH_DOUBLE
+/* m/rho of a neighbour that has lost nearly all density is taken for that of half the density at rest: else the bound
+   of the step would be out by its thinness, and spray would take what it touches below 0 */
+static void a_thin_neighbour_diffuses_no_faster(void **state)
+{
+    (void)state;
+    for (uint32_t scheme = 0; scheme < 2; scheme++) {
+        sph_config c = open_config(1, DX);
+        uint32_t set;
+        double x[SPH_DIM] = {0}, w, dw;
+        c.viscosity = SPH_INVISCID;
+        c.diffusion = SPH_MOLTENI;
+        c.integrator = SPH_KICK_DRIFT_KICK;
+        c.scheme = scheme ? SPH_WEAK : SPH_STANDARD;
+        c.dt = 1e-8;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_fluid(sim, NULL, &set));
+        must(sim, sph_add_particle(sim, set, x, NULL, 1000, NULL));
+        x[0] = DX;
+        must(sim, sph_add_particle(sim, set, x, NULL, 150, NULL));
+        must(sim, sph_step(sim));
+        assert_int_equal(sph_kernel_value(c.kernel, DX, c.smoothing_length, &w, &dw), SPH_OK);
+        const double volume = 2 * pow(DX, SPH_DIM), h = c.smoothing_length;
+        const double rate = 2 * c.delta * h * 20 * volume * 850 * DX * dw / (DX * DX + 0.01 * h * h);
+        close_to((by_id(sim, 0).rho - 1000) / c.dt, rate, 1e-4 * fabs(rate));
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+#endif
+
+/* of fluid only, whatever walls have; before the first step too */
+static void the_step_says_how_thin_and_how_dense_the_fluid_is(void **state)
+{
+    (void)state;
+    sph_config c = open_config(1, DX);
+    const sph_wall wall = sph_wall_default();
+    const double low[SPH_DIM] = {0};
+    double high[SPH_DIM], x[SPH_DIM];
+    uint32_t set;
+    sph_step_info info;
+    sph_sim *sim = new_sim(&c);
+    sph_get_step(sim, &info);
+    assert_true(info.thinnest >= 0 && info.thinnest <= 0 && info.densest >= 0 && info.densest <= 0);
+    must(sim, sph_add_fluid(sim, &(sph_fluid){.rho0 = 800}, &set));
+    for (int i = 0; i < 3; i++) {
+        static const double rho[] = {790, 340, 860};
+        for (int k = 0; k < SPH_DIM; k++) {
+            high[k] = 1;
+            x[k] = 0.5 + (k == 0 ? 0.02 * i : 0);
+        }
+        must(sim, sph_add_particle(sim, set, x, NULL, rho[i], NULL));
+    }
+    must(sim, sph_add_wall_box(sim, &wall, low, high, SPH_LOW(0), true, NULL));
+    sph_get_step(sim, &info);
+    close_to(info.thinnest, 340.0 / 800, 4 * EPS);
+    close_to(info.densest, 860.0 / 800, 4 * EPS);
+}
+
 static void a_falling_body_falls_exactly(void **state)
 {
     (void)state;
@@ -321,6 +379,10 @@ int main(void)
         subject(sound_travels_at_the_speed_of_the_equation_of_state),
         subject(the_limits_of_the_step_are_the_printed_ones),
         subject(the_courant_limit_sees_mu_between_fluids_of_any_density),
+#if SPH_DOUBLE
+        subject(a_thin_neighbour_diffuses_no_faster),
+#endif
+        subject(the_step_says_how_thin_and_how_dense_the_fluid_is),
         subject(a_falling_body_falls_exactly),
         subject(a_bounce_keeps_the_speed),
 #if SPH_DIM == 1

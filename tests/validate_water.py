@@ -8,7 +8,8 @@ Exit code 1 if a row with a target misses it.
 """
 import math, sys
 
-from validation import front_against_experiment, front_against_vof, main, read_table, Run, slope, zero_crossings
+from validation import (box_levels_off, box_peak, front_against_experiment, front_against_vof, impact_mean,
+                        impact_noise, impact_peak, levels_off, main, read_table, Run, slope, zero_crossings)
 
 
 def cases(quick):
@@ -73,6 +74,30 @@ def cases(quick):
                         lambda r: front_against_experiment(r, [p for p in mm2 if p[0] != 4.034], match2)[0])
                     add(f"{tag} shift in T", "-", None, [run],
                         lambda r: front_against_experiment(r, mm2, match2)[1])
+    # B8: dam break against a wall, with shifting (the scene's default) and the best without; B9: in 3-D, a box
+    for n in (30,) if quick else (30, 40, 60):
+        for how, most, options in (("shifting", {40: 3.0, 60: 1.5}, {}),
+                                   ("none", {40: 6.0, 60: 4.0}, dict(shifting=0, alpha=0.02, sound=14.142136))):
+            run = Run("impact", n=n, every=1e-4, **options)
+            tag = f"B8 shifting {how} n={n}" if how == "none" else f"B8 n={n}"
+            add(f"{tag} noise of P1 about its 10 ms mean", "% of rho g H", most.get(n), [run],
+                lambda r: 100 * impact_noise(r))
+            add(f"{tag} largest 10 ms mean of P1 (measured 2.51)", "rho g H", 3.3 if n > 30 else None, [run],
+                impact_peak)
+            add(f"{tag} mean of P1 at t* 3.2 to 5.5 (De Courcy 0.97)", "rho g H", None, [run], impact_mean)
+            add(f"{tag} levels off the measured", "H rms", None, [run], levels_off)
+    box = Run("obstacle", every=0.004)
+    for k in ("P1", "P2", "P3", "P4"):
+        add(f"B9 n=11 20 ms peak of {k} over the measured", "ratio", None, [box], lambda r, k=k: box_peak(r, k))
+    add("B9 n=11 levels off the measured", "% of the depth, rms", None, [box], lambda r: 100 * box_levels_off(r, 2.0))
+    # sloshing: the guard of shifting
+    for shifting in (0.5, 0):
+        run = Run("sloshing", shifting=shifting, frames=800)
+        add(f"sloshing shifting {shifting} mean level after 20 periods", "% off", 0.5 if shifting else None, [run],
+            lambda r: 100 * abs(sum(r.col("level_")[-40:]) / 40 / r.col("level_")[0] - 1))
+        add(f"sloshing shifting {shifting} rise of the energy, of the largest kinetic", "%", 5 if shifting else None,
+            [run], lambda r: 100 * max(e - min(r.col("energy_")[:i + 1]) for i, e in enumerate(r.col("energy_"))) /
+            max(r.col("kinetic_")))
     # float against double, near and 1000 tank lengths from the origin
     n = 30
     near, far = Run("dam_break", n=n, precision="float"), Run("dam_break", n=n, precision="float", away=1000)

@@ -94,6 +94,73 @@ def front_against_vof(run, table, z_last):
     return 100 * worst
 
 
+def over_10_ms(t, p):
+    """The mean of p over 10 ms about each row."""
+    means, lo, hi, total = [], 0, 0, 0.0
+    for now in t:
+        while hi < len(t) and t[hi] <= now + 0.005:
+            total += p[hi]
+            hi += 1
+        while t[lo] < now - 0.005:
+            total -= p[lo]
+            lo += 1
+        means.append(total / (hi - lo))
+    return means
+
+
+def impact_window(run, column):
+    """Pressure of a sensor of the scene impact and its 10 ms means, t* 3.2 .. 5.5; ValueError where it ended early."""
+    t, ts, p = run.col("time_s"), run.col("t_"), run.col(column)
+    if run.error or ts[-1] < 5.5:
+        raise ValueError(run.error or "ended early")
+    rows = [(a, b) for x, a, b in zip(ts, p, over_10_ms(t, p)) if 3.2 <= x <= 5.5]
+    return [a for a, b in rows], [b for a, b in rows]
+
+
+def impact_noise(run, column="P1_"):
+    p, slow = impact_window(run, column)
+    return math.sqrt(sum((a - b) ** 2 for a, b in zip(p, slow)) / len(p))
+
+
+def impact_mean(run, column="P1_"):
+    p = impact_window(run, column)[0]
+    return sum(p) / len(p)
+
+
+def impact_peak(run, column="P1_"):
+    """Largest mean over 10 ms."""
+    return max(over_10_ms(run.col("time_s"), run.col(column)))
+
+
+def levels_off(run, table="lobovsky_levels.csv", last=4.0):
+    """rms of the levels H1 .. H4 less the measured ones until t* = last."""
+    off = []
+    for r in read_table(table):
+        for k in ("H1", "H2", "H3", "H4"):
+            ours = interpolate(run.col("t_"), run.col(k), float(r["t"]))
+            if float(r["t"]) <= last and ours is not None and r[k] != "nan":
+                off.append(ours - float(r[k]))
+    return math.sqrt(sum(x * x for x in off) / len(off))
+
+
+def box_levels_off(run, last):
+    """Of SPHERIC's test 2: rms of the levels less the measured ones until `last` seconds, over the depth."""
+    off = []
+    for r in read_table("spheric_test2.csv"):
+        for k in ("H1", "H2", "H3", "H4"):
+            ours = interpolate(run.col("time_s"), run.col(k), float(r["time"]))
+            if float(r["time"]) <= last and ours is not None:
+                off.append((ours - float(r[k])) / 0.55)
+    return math.sqrt(sum(x * x for x in off) / len(off))
+
+
+def box_peak(run, sensor):
+    """Largest mean over 20 ms of a sensor on the box, over the measured one."""
+    t, p = run.col("time_s"), run.col(sensor + "_")
+    means = [sum(q) / len(q) for q in ([b for a, b in zip(t, p) if abs(a - now) <= 0.01] for now in t[::4])]
+    return max(means) / max(float(r[sensor]) for r in read_table("spheric_test2.csv"))
+
+
 def front_against_experiment(run, points, match):
     """Largest |Z/Z_exp - 1| in percent with time matched at one point, and the shift in T."""
     t, z = run.col("T_"), run.col("Z_")

@@ -9,14 +9,15 @@
 #include "studies.h"
 
 static const char help[] =
-    "usage: sph advise SCENE error=2% [precision=float|double] [cost=instructions|pairs] [study=NAME]\n"
-    "                  [step=controlled|any] [tables=FOLDER]\n"
+    "usage: sph advise SCENE error=2% [norm=front|pressure|...] [precision=float|double] [cost=instructions|pairs]\n"
+    "                  [study=NAME] [step=controlled|any] [tables=FOLDER]\n"
     "The cheapest run known of a scene whose error is at most that, from the tables of measured runs (of tests/lab as\n"
     "they were when the program was built, or those in a folder): its\n"
     "command, error, cost, what it rests on, the next cheaper run, and the best one known.\n"
     "  error=      with the unit of the study's norm, as 2% or 0.1cm\n"
     "  precision=  only runs in it; both unless given\n"
     "  cost=       instructions of the whole run (counted, default build), or candidate pairs looked at\n"
+    "  norm=       what the error is of, in a word of the studies: front, pressure, noise, energy ...\n"
     "  study=      one study; a scene may have several, with norms of their own: what is chosen meets all of that "
     "unit\n"
     "  step=       any: runs whose time step was set by hand too, some at the edge of what is stable\n"
@@ -38,7 +39,7 @@ typedef struct choice {
 } choice;
 
 typedef struct advice {
-    const char *scene, *study;
+    const char *scene, *study, *norm;
     double wanted;
     const char *unit;
     int precision, cost; /* precision: 0 float, 1 double, 2 both; cost: number of a run */
@@ -123,12 +124,23 @@ static void take_runs(advice *a, uint32_t s)
     }
 }
 
+/* is `word` one of the words of a text, with blanks between? */
+static bool has_word(const char *text, const char *word)
+{
+    const size_t n = strlen(word);
+    for (; *text; text += strcspn(text, " "), text += strspn(text, " "))
+        if (strcspn(text, " ") == n && !memcmp(text, word, n))
+            return true;
+    return false;
+}
+
 /* is study s one of those that count? Its unit may go on, as "% of the depth". */
 static bool counts(const advice *a, uint32_t s)
 {
     const study *t = &a->tables.study[s];
     const size_t n = strcspn(t->unit, " ");
-    return (!a->study || !strcmp(t->name, a->study)) && strlen(a->unit) == n && !memcmp(t->unit, a->unit, n);
+    const bool asked = (!a->study || !strcmp(t->name, a->study)) && (!a->norm || has_word(t->quantity, a->norm));
+    return asked && strlen(a->unit) == n && !memcmp(t->unit, a->unit, n);
 }
 
 /* the worst error of a choice in the studies of a mask, negative if one of them has no such run */
@@ -285,7 +297,7 @@ static void put_alone(const advice *a, uint32_t mask)
 static void put_rest(const advice *a)
 {
     for (uint32_t s = 0; s < a->tables.count; s++)
-        if (!counts(a, s) && !a->study) {
+        if (!counts(a, s) && !a->study && !a->norm) {
             const study *t = &a->tables.study[s];
             printf("not asked   study %s, in %s: %s\n", t->name, t->unit, t->norm);
         }
@@ -315,10 +327,12 @@ static int no_study(const advice *a, const char *folder)
 static int no_such_norm(const advice *a)
 {
     const char *const called = a->study ? " called " : "", *const name = a->study ? a->study : "";
-    host_usage("no study of %s%s%s has its error in \"%s\"", a->scene, called, name, a->unit);
+    const char *const of = a->norm ? " with norm=" : "", *const norm = a->norm ? a->norm : "";
+    host_usage("no study of %s%s%s%s%s has its error in \"%s\"", a->scene, called, name, of, norm, a->unit);
     fputs("allowed:", stderr);
     for (uint32_t s = 0; s < a->tables.count; s++)
-        fprintf(stderr, "%s study=%s error=NUMBER%.*s", s ? "," : "", a->tables.study[s].name,
+        fprintf(stderr, "%s study=%s norm=%.*s error=NUMBER%.*s", s ? "," : "", a->tables.study[s].name,
+                (int)strcspn(a->tables.study[s].quantity, " "), a->tables.study[s].quantity,
                 (int)strcspn(a->tables.study[s].unit, " "), a->tables.study[s].unit);
     fputc('\n', stderr);
     return HOST_USAGE;
@@ -386,12 +400,13 @@ static bool take_options(advice *a, int argc, char **argv)
         a->any_step = kind == 1;
     }
     a->study = host_option(argc, argv, "study");
+    a->norm = host_option(argc, argv, "norm");
     return true;
 }
 
 int cmd_advise(int argc, char **argv)
 {
-    static const char *const known[] = {"error", "precision", "cost", "study", "step", "tables", NULL};
+    static const char *const known[] = {"error", "norm", "precision", "cost", "study", "step", "tables", NULL};
     advice a;
     memset(&a, 0, sizeof a);
     host_command("advise");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* cmd_fragments.c: sph fragments. The pieces into which solids have broken: particles that still bear tension, linked
-   when near each other; their sizes, and Grady and Kipp's density beside them. */
+   when near each other; their sizes, and Grady and Kipp's density beside them. Or the drops of a fluid. */
 #include "commands.h"
 #include "dumpfile.h"
 #include "gradykipp.h"
@@ -13,9 +13,10 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: sph fragments DUMP... [damage=0.5] [link=1.5] [across=no|yes] [least=1] [by=length|diameter]\n"
-    "                             [bins=10] [k= m= c= rate=] [out=NAME.csv] [histogram=NAME.csv]\n"
+    "usage: sph fragments DUMP... [of=solid|fluid] [damage=0.5] [link=1.5] [across=no|yes] [least=1]\n"
+    "                             [by=length|diameter] [bins=10] [k= m= c= rate=] [out=NAME.csv] [histogram=NAME.csv]\n"
     "Pieces of the solid sets: particles of damage D below a threshold, linked when closer than link spacings.\n"
+    "  of=fluid       pieces of the fluid: the water, and the drops of its spray\n"
     "  damage=0.5     a particle above it bears less than half of its tension and counts as broken, part of no piece.\n"
     "                 The number of pieces at other thresholds is printed too; where it varies, look at a picture\n"
     "  link=1.5       in spacings; 1.5 links diagonal neighbours of a square lattice, which still pull at each other, "
@@ -34,7 +35,7 @@ static const char help[] =
 
 typedef struct options {
     double damage, link;
-    bool across, by_length, has_theory;
+    bool fluid, across, by_length, has_theory;
     uint64_t least, bins;
     gradykipp theory;
     const char *out, *histogram;
@@ -45,7 +46,7 @@ typedef struct piece {
     double mass, volume, edge[3], length, diameter, centre[3];
 } piece;
 
-/* particles of solid sets, in the order of their ids, whatever the order of the arrays */
+/* particles of solid sets, or of fluids, in the order of their ids, whatever the order of the arrays */
 typedef struct body {
     uint32_t n;
     uint32_t *at;      /* place in the dump */
@@ -77,19 +78,19 @@ static void free_body(body *b)
     free(b->d);
 }
 
-static bool read_body(const dump_file *d, body *b)
+static bool read_body(const dump_file *d, bool fluid, body *b)
 {
     double *damage = host_alloc(d->n * sizeof *damage);
     const char *unit;
     memset(b, 0, sizeof *b);
     memset(damage, 0, d->n * sizeof *damage);
-    if (dump_has_field(d, "damage"))
+    if (!fluid && dump_has_field(d, "damage"))
         dump_field(d, "damage", damage, &unit);
     b->at = host_alloc(d->n * sizeof *b->at);
     b->x = host_alloc(d->n * sizeof *b->x);
     b->d = host_alloc(d->n * sizeof *b->d);
     for (uint32_t i = 0; i < d->n; i++)
-        if (dump_role(d, i) == DUMP_SOLID)
+        if (dump_role(d, i) == (fluid ? DUMP_FLUID : DUMP_SOLID))
             b->at[b->n++] = i;
     sorting = d;
     if (b->n)
@@ -103,7 +104,7 @@ static bool read_body(const dump_file *d, body *b)
     free(damage);
     if (b->n)
         return true;
-    host_no("%s: carries no particle of a solid set", d->name);
+    host_no(fluid ? "%s: carries no particle of a fluid" : "%s: carries no particle of a solid set", d->name);
     free_body(b);
     return false;
 }
@@ -228,14 +229,42 @@ static bool find_pieces(const dump_file *d, const body *b, const options *o, dou
 
 /* ---- what is printed and written ---- */
 
+static void print_head(const dump_file *d, const body *b, const options *o, const pieces *p)
+{
+    printf("%s: t = %.6g %s, ", d->name, d->time, dump_unit(d, "s"));
+    if (o->fluid) {
+        const double water = p->n ? p->list[0].mass : 0;
+        const uint32_t most = p->n ? p->list[0].particles : 0;
+        printf("fluid particles: %u, pieces: %u, outside the largest: %u (%.3f %% of the mass)\n", b->n, p->n,
+               b->n - most, most < b->n ? 100 * (1 - water / b->mass) : 0);
+        return;
+    }
+    printf("solid particles: %u, pieces: %u, broken particles: %u (%.2f %% of the mass)\n", b->n, p->n, p->broken,
+           p->broken ? 100 * p->broken_mass / b->mass : 0);
+    if (!dump_has_field(d, "damage"))
+        printf("no array damage: nothing counts as broken\n");
+}
+
+/* how many pieces there would be at other thresholds */
+static void print_thresholds(const dump_file *d, const body *b, const options *o)
+{
+    static const double others[] = {0.25, 0.5, 0.75, 0.95};
+    printf("pieces by threshold of damage:");
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        pieces q;
+        if (!find_pieces(d, b, o, others[i], &q))
+            break;
+        printf("%s %u at %g", i ? "," : "", q.n, others[i]);
+        free(q.list);
+    }
+    putchar('\n');
+}
+
 static void print_pieces(const dump_file *d, const body *b, const options *o, const pieces *p)
 {
     const uint32_t shown = p->n < 20 ? p->n : 20;
     double length = 0, diameter = 0;
-    printf("%s: t = %.6g %s, solid particles: %u, pieces: %u, broken particles: %u (%.2f %% of the mass)\n", d->name,
-           d->time, dump_unit(d, "s"), b->n, p->n, p->broken, p->broken ? 100 * p->broken_mass / b->mass : 0);
-    if (!dump_has_field(d, "damage"))
-        printf("no array damage: nothing counts as broken\n");
+    print_head(d, b, o, p);
     if (p->n)
         printf("masses in %s, lengths in %s\n%5s %9s %8s %4s %12s %8s %11s %11s %11s %11s %11s\n", dump_unit(d, "kg"),
                dump_unit(d, "m"), "piece", "particles", "first id", "set", "mass", "share", "length", "diameter",
@@ -254,16 +283,8 @@ static void print_pieces(const dump_file *d, const body *b, const options *o, co
         printf("      ... and %u smaller ones\n", p->n - shown);
     if (p->n)
         printf("mean of the pieces: length %.5g, diameter %.5g %s\n", length, diameter, dump_unit(d, "m"));
-    static const double others[] = {0.25, 0.5, 0.75, 0.95};
-    printf("pieces by threshold of damage:");
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        pieces q;
-        if (!find_pieces(d, b, o, others[i], &q))
-            break;
-        printf("%s %u at %g", i ? "," : "", q.n, others[i]);
-        free(q.list);
-    }
-    putchar('\n');
+    if (!o->fluid)
+        print_thresholds(d, b, o);
 }
 
 static void write_pieces(const dump_file *d, const body *b, const pieces *p, FILE *f)
@@ -365,7 +386,7 @@ static bool one_dump(const char *name, options *o, sizes *s, FILE *out)
     pieces p = {NULL, 0, 0, 0};
     if (!dump_open(&d, name))
         return false;
-    bool fine = read_body(&d, &b);
+    bool fine = read_body(&d, o->fluid, &b);
     if (fine) {
         o->theory.dim = d.dim;
         fine = find_pieces(&d, &b, o, o->damage, &p);
@@ -395,6 +416,12 @@ static bool parse_options(int argc, char **argv, options *o)
         ((text = host_option(argc, argv, "least")) && !host_count("least", text, 1, 1000000000, &o->least)) ||
         ((text = host_option(argc, argv, "bins")) && !host_count("bins", text, 1, 10000, &o->bins)))
         return false;
+    static const char *const kinds[] = {"solid", "fluid", NULL};
+    if ((text = host_option(argc, argv, "of"))) {
+        if ((choice = host_choice("of", text, kinds)) < 0)
+            return false;
+        o->fluid = choice == 1;
+    }
     if ((text = host_option(argc, argv, "across"))) {
         if ((choice = host_choice("across", text, yes_no)) < 0)
             return false;
@@ -421,8 +448,8 @@ static bool parse_options(int argc, char **argv, options *o)
 
 int cmd_fragments(int argc, char **argv)
 {
-    static const char *const known[] = {"damage", "link", "across", "least", "by",  "bins",      "k",
-                                        "m",      "c",    "rate",   "out",   "histogram", NULL};
+    static const char *const known[] = {"of", "damage", "link", "across", "least", "by", "bins", "k", "m", "c", "rate",
+                                        "out", "histogram", NULL};
     options o;
     sizes s = {0};
     output file[2] = {{0}};

@@ -296,6 +296,33 @@ static bool open_sim(run *r)
 
 static const char *const role_names[SPH_ROLES] = {"fluid", "wall", "boundary wall", "solid"};
 
+/* rho/rho0 of fluid that is nowhere in water that is well: weakly compressible water keeps within some hundredths */
+#define THIN 0.9
+#define DENSE 1.1
+
+static void watch_density(run *r, const sph_step_info *info)
+{
+    if (info->thinnest < r->thinnest) {
+        r->thinnest = info->thinnest;
+        r->thin_time = info->time;
+    }
+    if (info->densest > r->densest) {
+        r->densest = info->densest;
+        r->dense_time = info->time;
+    }
+}
+
+static void say_density(const run *r)
+{
+    const char *s = build_unit(&r->scene, "s");
+    if (r->thinnest > 0 && r->thinnest < THIN)
+        fprintf(stderr, "note: density of fluid fell to %.3g of that at rest, t %.5g %s (limit %g): spray or tension\n",
+                r->thinnest, r->thin_time, s, THIN);
+    if (r->densest > DENSE)
+        fprintf(stderr, "note: density of fluid rose to %.3g of that at rest, t %.5g %s (limit %g): sound too slow, or "
+                "squeezed by a wall\n", r->densest, r->dense_time, s, DENSE);
+}
+
 static int step_failed(run *r, sph_status st)
 {
     const sph_report *why = r->b->last(r->sim);
@@ -303,6 +330,7 @@ static int step_failed(run *r, sph_status st)
     r->b->info(r->sim, &info);
     progress(r, true);
     host_no("step %llu failed: %s", (unsigned long long)info.step + 1, sph_status_text(st));
+    say_density(r);
     if (why->particle != SPH_NO_PARTICLE)
         fprintf(stderr, "  particle %u%s", why->particle, why->role < SPH_ROLES ? "" : "\n");
     if (why->role < SPH_ROLES)
@@ -322,6 +350,7 @@ static int step_all(run *r, bool skip)
 {
     sph_step_info info;
     r->b->info(r->sim, &info);
+    r->thinnest = 1;
     bool fine = skip || run_write_frame(r);
     while (fine && !interrupted && !finished(r, &info)) {
         uint64_t before = port_posix_clock(NULL);
@@ -333,6 +362,7 @@ static int step_all(run *r, bool skip)
         r->limit_steps[info.limit]++;
         r->particle_steps += r->b->count(r->sim);
         r->pairs += info.pairs;
+        watch_density(r, &info);
         progress(r, false);
         fine = !r->stage.f || output_flush(&r->stage);
         if (fine && (finished(r, &info) || info.time >= (double)(r->frame + 1) * r->every)) {
@@ -342,6 +372,7 @@ static int step_all(run *r, bool skip)
         }
     }
     progress(r, true);
+    say_density(r);
     if (interrupted) {
         fprintf(stderr, "interrupted at t = %g %s, step %llu\n", info.time, build_unit(&r->scene, "s"),
                 (unsigned long long)info.step);

@@ -42,6 +42,7 @@ typedef struct run {
 
     uint64_t first_step, limit_steps[SPH_LIMITS], particle_steps, pairs;
     double first_time;
+    double thinnest, densest, thin_time, dense_time; /* rho/rho0 of the fluid, least and most so far, and when */
     uint64_t began, stepping, last_line; /* ns */
 } run;
 

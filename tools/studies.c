@@ -63,9 +63,9 @@ static const char *header(const char *line, const char *key)
 
 static void read_header(study *s, const char *line)
 {
-    const char *const key[] = {"study", "title", "scene", "norm", "reference", "unit"}, *text;
-    const char **const to[] = {&s->name, &s->title, &s->scene, &s->norm, &s->reference, &s->unit};
-    for (int i = 0; i < 6; i++)
+    const char *const key[] = {"study", "title", "scene", "norm", "quantity", "reference", "unit"}, *text;
+    const char **const to[] = {&s->name, &s->title, &s->scene, &s->norm, &s->quantity, &s->reference, &s->unit};
+    for (int i = 0; i < 7; i++)
         if ((text = header(line, key[i])))
             *to[i] = text;
 }
@@ -199,7 +199,7 @@ static void note_scene(studies *all, const char *scene)
 /* a table's text, from malloc, becomes the study's; so does its file's name */
 static bool take_file(studies *all, char *file, unsigned char *text, size_t size, const char *scene)
 {
-    study s = {NULL, NULL, "", "", "", "", "", "", NULL, 0};
+    study s = {NULL, NULL, "", "", "", "", "", "", "", NULL, 0};
     s.file = file;
     s.text = text;
     bool fine = s.text != NULL, wanted = false;

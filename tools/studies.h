@@ -37,7 +37,8 @@ bool studies_lucky(const study_run *a, const study_run *b);
 typedef struct study {
     char *file;
     unsigned char *text;
-    const char *name, *title, *scene, *norm, *reference, *unit; /* "" where the file does not say */
+    const char *name, *title, *scene, *norm, *quantity, *reference, *unit; /* "" where the file does not say;
+                                                                              quantity: words for norm= */
     study_run *run;
     uint32_t runs;
 } study;

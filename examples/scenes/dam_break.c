@@ -54,22 +54,15 @@ static void configure(const double *p, sph_config *c)
                                       scene_wall_count(p, lo, hi, dx, SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1)));
 }
 
-/* Pressure of the column at the moment of release: Laplace's equation in 0..a x 0..H with p = 0 at the top and at
-   x = a, dp/dx = 0 at x = 0 and dp/dy = -rho g at the floor; H - y in quarter waves, each carried inward by cosh. */
-#define TERMS 100
+/* pressure of the column at the moment of release */
 static void released(void *ctx, const double *x, double *v, double *rho)
 {
-    const double *p = ctx, h = p[N2] * p[A];
-    double lo[2], hi[2], sum = 0;
+    const double *p = ctx;
+    double lo[2], hi[2];
     (void)v;
     tank(p, lo, hi);
     const double y[2] = {x[0] - lo[0], x[1] - lo[1]};
-    for (int i = 0; i < TERMS; i++) {
-        double k = (i + 0.5) * SCENE_PI / h;
-        double inward = sph_exp(k * (y[0] - p[A])) * (1 + sph_exp(-2 * k * y[0])) / (1 + sph_exp(-2 * k * p[A]));
-        sum += 2 / (h * k * k) * sph_cos(k * y[1]) * inward;
-    }
-    double pressure = 1000 * p[GRAVITY] * (h - y[1] - sum);
+    double pressure = 1000 * p[GRAVITY] * scene_released(p[A], p[N2] * p[A], y);
     *rho = scene_density(p, pressure > 0 ? pressure : 0, 1000, sound(p));
 }
 

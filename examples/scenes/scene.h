@@ -58,8 +58,13 @@ enum {
                     SPH_PREDICTOR_CORRECTOR, 0.25, 0)
 #define SCENE_PARAMS_OF(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_,      \
                         integrator_, cfl_, floor_)                                                                    \
+    SCENE_PARAMS_SHIFTED(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_,     \
+                         integrator_, cfl_, floor_, 0.1, 0)
+/* besides, strengths of diffusion and shifting that are not the usual ones */
+#define SCENE_PARAMS_SHIFTED(kernel_, h_, eos_, viscosity_, alpha_, diffusion_, wall_, damping_, damp_steps_, books_, \
+                             integrator_, cfl_, floor_, delta_, shifting_)                                            \
     SPH_OPTIONS(SCENE_SKIP, SCENE_ROW, (kernel_, h_, eos_, viscosity_, alpha_, diffusion_, damping_, books_,          \
-                                        integrator_, cfl_, floor_))                                                   \
+                                        integrator_, cfl_, floor_, delta_, shifting_))                                \
     {"wall", "-", "walls: lennard_jones kernel_force monaghan_kos ghost ghost_compressible adami adami_no_slip",      \
      wall_, 0, SCENE_WALLS - 1, SCENE_CHOICE},                                                                        \
     {"strength", "-", "of a boundary force, in the wall's own units (sph.h, section 6); 0: the usual", 0, 0, 1e12,    \
@@ -82,7 +87,9 @@ enum {
 #define SCENE_OWN_books(k, h, e, v, a, d, damping_, books_, ...) books_
 #define SCENE_OWN_integrator(k, h, e, v, a, d, damping_, books_, integrator_, ...) integrator_
 #define SCENE_OWN_cfl(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, ...) cfl_
-#define SCENE_OWN_pressure_floor(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, floor_) floor_
+#define SCENE_OWN_pressure_floor(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, floor_, ...) floor_
+#define SCENE_OWN_delta(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, floor_, delta_, ...) delta_
+#define SCENE_OWN_shifting(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, floor_, delta_, shifting_) shifting_
 #define SCENE_OWN_on_cross(...) SPH_PUT_BACK
 #define SCENE_KIND_WHOLE SCENE_WHOLE
 #define SCENE_KIND_CHOICE SCENE_CHOICE
@@ -132,6 +139,19 @@ uint32_t scene_capacity(double n);
 /* Density (kg/m^3) at which the equation of state that p chooses gives a pressure (Pa). */
 #define scene_density SPH_NAME(scene_density)
 double scene_density(const double *p, double pressure, double rho0, double sound_speed);
+
+/* Pressure over rho g at a place (m from the low corner) of a column of water a wide and h high that stands against a
+   wall at x = 0 on a floor, in 2-D, at the moment when it is let go on the other side: Laplace's equation with p = 0 at
+   the top and at x = a, dp/dx = 0 at the wall and dp/dy = -rho g at the floor. */
+#define scene_released SPH_NAME(scene_released)
+double scene_released(double a, double h, const double *y);
+
+/* Pressure (Pa) of fluid on walls at n places (m), at most SCENE_SENSORS: what Adami, Hu & Adams' equation 27 (2012)
+   extrapolates there from all fluid within the kernel's support; 0 where there is none. */
+enum { SCENE_SENSORS = 64 };
+#define scene_wall_pressure SPH_NAME(scene_wall_pressure)
+void scene_wall_pressure(const sph_sim *sim, const sph_config *c, const double (*x)[SPH_DIM], uint32_t n,
+                         double *pressure);
 
 /* To be called between steps: ends the damping after damp_steps. cfg is what the simulation was made with (port and
    hooks included) and is changed with it. */

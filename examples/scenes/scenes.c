@@ -8,6 +8,8 @@
 #elif SPH_DIM == 2
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break)                                                                                            \
+    X(impact)                                                                                               \
+    X(sloshing)                                                                                             \
     X(still_tank)                                                                                           \
     X(standing_wave)                                                                                        \
     X(taylor_green)                                                                                         \
@@ -24,7 +26,9 @@
     X(block)                                                                                                \
     X(caldera)
 #else
-#define SCENE_LIST(X) X(dam_break_3d)
+#define SCENE_LIST(X)                                                                                       \
+    X(dam_break_3d)                                                                                         \
+    X(obstacle)
 #endif
 
 #define SCENE_DECLARED(name) extern const scene SPH_NAME(scene_##name);
@@ -166,6 +170,46 @@ double scene_density(const double *p, double pressure, double rho0, double sound
     case SPH_TAIT_GRAY: return rho0 * sph_pow(1 + y, 1.0 / 7);
     default: return rho0 * sph_pow(1 + 7 * y, 1.0 / 7);
     }
+}
+
+/* h - y in quarter waves, each carried inward by cosh */
+#define TERMS 100
+double scene_released(double a, double h, const double *y)
+{
+    double sum = 0;
+    for (int i = 0; i < TERMS; i++) {
+        double k = (i + 0.5) * SCENE_PI / h;
+        double inward = sph_exp(k * (y[0] - a)) * (1 + sph_exp(-2 * k * y[0])) / (1 + sph_exp(-2 * k * a));
+        sum += 2 / (h * k * k) * sph_cos(k * y[1]) * inward;
+    }
+    return h - y[1] - sum;
+}
+
+void scene_wall_pressure(const sph_sim *sim, const sph_config *c, const double (*x)[SPH_DIM], uint32_t n,
+                         double *pressure)
+{
+    const double reach = sph_kernel_support(c->kernel) * c->smoothing_length;
+    double weight[SCENE_SENSORS] = {0};
+    for (uint32_t s = 0; s < n; s++)
+        pressure[s] = 0;
+    for (uint32_t i = 0; i < sph_count(sim); i++) {
+        sph_particle q;
+        if (sph_get(sim, i, &q) != SPH_OK || q.role != SPH_ROLE_FLUID)
+            continue;
+        for (uint32_t s = 0; s < n; s++) {
+            double r2 = 0, height = 0, w = 0, dw;
+            for (int k = 0; k < SPH_DIM; k++) {
+                r2 += (x[s][k] - q.x[k]) * (x[s][k] - q.x[k]);
+                height += c->gravity[k] * (x[s][k] - q.x[k]);
+            }
+            if (!(r2 < reach * reach) || sph_kernel_value(c->kernel, __builtin_sqrt(r2), c->smoothing_length, &w, &dw))
+                continue;
+            weight[s] += w;
+            pressure[s] += (q.p + q.rho * height) * w;
+        }
+    }
+    for (uint32_t s = 0; s < n; s++)
+        pressure[s] = weight[s] > 0 ? pressure[s] / weight[s] : 0;
 }
 
 sph_status scene_between(sph_sim *sim, const double *p, sph_config *cfg)

@@ -11,7 +11,8 @@ static void change_field(input *in, sph_config *c)
                                &c->delta, &c->xsph, &c->damping, &c->dt, &c->cfl, &c->viscous_factor, &c->force_factor,
                                &c->gravity_factor, &c->dt_max, &c->dt_min, &c->stress_epsilon, &c->max_stretch,
                                &c->lo[0], &c->hi[0], &c->gravity[0],
-                               &c->lo[SPH_DIM - 1], &c->hi[SPH_DIM - 1], &c->gravity[SPH_DIM - 1]};
+                               &c->lo[SPH_DIM - 1], &c->hi[SPH_DIM - 1], &c->gravity[SPH_DIM - 1],
+                               &c->shifting};
     uint32_t *const words[] = {&c->cookie, &c->max_particles, &c->max_threads, &c->face[0][0], &c->face[0][1],
                                &c->face[SPH_DIM - 1][0], &c->face[SPH_DIM - 1][1], &c->on_leave, &c->on_cross,
                                &c->kernel,

@@ -47,6 +47,7 @@ static sph_config take_config(world *w)
         c.gravity[k] = k + 1 == SPH_DIM ? -take_near(in, 20) : 0;
     }
     const uint32_t solid = pick(in, 8);
+    c.shifting = solid == 7 ? 1 : 0;
     if (solid > 0 && solid < SPH_SOLIDS) {
         c.solid = solid;
         c.scheme = c.scheme % 2 ? SPH_WEAK : SPH_STANDARD;

@@ -12,6 +12,7 @@ the same files, byte for byte.
     STUDY_h          error and cost against h/dx
     STUDY_courant    error against the Courant number, where it blew up, and the linear theory's limit
     stages           instructions of a particle-step by stage
+    trade_off        the front of a dam break and the noise of a wall's pressure against cost, three choices
     atlas_*, interpolation_*: charts_atlas.py
 """
 import argparse, fnmatch, os, string, sys
@@ -297,6 +298,40 @@ def stages_chart(folder):
     return chart
 
 
+# ---- front against pressure ----
+
+# what is chosen for; its label in the study dam_break, in the study impact
+TRADES = (
+    ("front, cheap: h 1.2, alpha 0.01, delta 0.1, sound 14", "default",
+     "as dam_break: h 1.2, alpha 0.01, delta 0.1, sound 14"),
+    ("pressure: h 2, alpha 0.02, delta 0.2, sound 14", "for pressure: h 2, alpha 0.02, delta 0.2, sound 14",
+     "no shifting, alpha 0.02, sound 14"),
+    ("both: shifting 0.5, h 2, alpha 0.005, delta 0.2, sound 10",
+     "as impact: shifting 0.5, h 2, alpha 0.005, delta 0.2, sound 10", "default"),
+)
+
+
+def trade_chart(found):
+    study = {s.name: s for s in found}
+    if not all(name in study for name in ("dam_break", "impact")):
+        return None
+    chart = Chart("trade_off", "Water: a front, or the pressure on a wall, for the same cost")
+    for k, name in ((1, "dam_break"), (2, "impact")):
+        s = study[name]
+        runs = good(s.sweep("method"), "pairs")
+        lines = [sorted((r for r in runs if r["label"] == choice[k]), key=s.finer) for choice in TRADES]
+        every = [r for rows in lines for r in rows]
+        if not every:
+            return None
+        x, y = Axis([r["pairs"] for r in every], True, pad=0.07), Axis([r["error"] for r in every], True, pad=0.1)
+        p = chart.panel(260, "pairs of particles looked at, whole run", error_label(s), x, y, right=50)
+        for i, rows in enumerate(lines):
+            p.line([r["pairs"] for r in rows], [r["error"] for r in rows], i, "abc"[i], width=2, size=0.8)
+        chart.note(f"{'Above' if k == 1 else 'Below'}: {s.title}; {s.norm}; table tests/lab/{s.name}.csv.")
+    chart.note("; ".join(f"{'abc'[i]} {choice[0]}" for i, choice in enumerate(TRADES)) + ".")
+    return chart
+
+
 # ---- the call ----
 
 def study_charts(folder):
@@ -311,6 +346,11 @@ def study_charts(folder):
                 yield chart
             else:
                 print(f"charts: {s.name}_{name} passed over: no such runs in {s.path}", file=sys.stderr)
+    chart = trade_chart(found)
+    if chart:
+        yield chart
+    else:
+        print(f"charts: trade_off passed over: no such runs in {folder}", file=sys.stderr)
     chart = stages_chart(folder)
     if chart:
         yield chart

@@ -19,6 +19,13 @@ KINDS = {
     "hydrostatic": "Water at rest: the pressure in a column",
     "still_tank": "Water at rest between walls, in two dimensions",
     "dam_break": "Water that runs and splashes: fronts, violent flow",
+    "impact": "Water that hits a wall: how quiet the pressure is",
+    "impact_peak": "Water that hits a wall: the largest pressure",
+    "impact_mean": "Water that hits a wall: the pressure after the impact",
+    "impact_levels": "Water that hits a wall: levels",
+    "dam_break_3d": "Water that runs, in three dimensions: fronts",
+    "obstacle": "Water around a body, in three dimensions: levels",
+    "obstacle_peaks": "Water around a body, in three dimensions: pressures on it",
     "taylor_green": "Viscous flow without a surface",
     "standing_wave": "Waves on water: periods and decay",
     "elliptical_drop": "Free water without walls: drops, jets",
@@ -309,6 +316,9 @@ def make(folder, charts):
                  "known one; what was right by luck, by the other sizes of the same method, is left out. What half the "
                  "error costs is a straight line through the Pareto front in logarithms.</p>\n",
                  choices_table(found)]
+    trade = picture(charts, "trade_off", "Error of a front, noise of a pressure, against cost: three choices", up)
+    if trade:
+        body.append(f'<h2 id="trade">A front, or the pressure on a wall</h2>\n{trade}')
     body += [section(s, charts, up) for s in found]
     if stages:
         body.append(f'<h2 id="stages">Where a step goes</h2>\n{stages}')

@@ -188,7 +188,7 @@ def table(study, rows, counts):
     out = io.StringIO()
     out.write("# SPDX-License-Identifier: MIT. Copyright the sph authors.\n")
     for name, value in (("study", study.name), ("title", study.title), ("scene", study.scene), ("norm", study.norm),
-                        ("reference", study.reference),
+                        ("quantity", study.quantity), ("reference", study.reference),
                         ("unit", study.unit), ("resolution", study.resolution), ("defaults", defaults(study)),
                         ("command", f"make lab STUDIES={study.name}"), ("left out", LEFT_OUT.get(study.name, ""))):
         if name == "left out" and not value:

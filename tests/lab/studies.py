@@ -12,7 +12,8 @@ import math, os, sys
 from dataclasses import dataclass, field
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from validation import front_against_vof, interpolate, read_table  # noqa: E402
+from validation import (box_levels_off, box_peak, front_against_vof, impact_mean, impact_noise,  # noqa: E402
+                        impact_peak, interpolate, levels_off, read_table)
 import validate_solids as solids  # noqa: E402
 
 
@@ -22,7 +23,7 @@ class Study:
     title: str
     scene: str
     norm: str
-    unit: str
+    unit: str                # a word, as "%", and of what
     reference: str
     error: object
     resolution: str          # the parameter, and what it counts
@@ -35,6 +36,7 @@ class Study:
     h: dict = field(default_factory=dict)        # label: values of h/dx
     courant: dict = field(default_factory=dict)  # label: values of c dt/h
     step: object = None                          # (size, h/dx) -> h/c of the scene, in its own units of time
+    quantity: str = ""                           # what the error is of, in words for `sph advise norm=`
     most_steps: int = 400000                     # a run whose step control creeps ends here, which is a result too
 
 
@@ -97,6 +99,30 @@ def channel_error(run):
     return last(whole(run), "velocity_error_rms")
 
 
+def noise_error(run):
+    return 100 * impact_noise(whole(run))
+
+
+def peak_error(run):
+    return 100 * abs(impact_peak(whole(run)) / 2.51 - 1)
+
+
+def mean_error(run):
+    return 100 * abs(impact_mean(whole(run)) / 0.972 - 1)
+
+
+def levels_error(run):
+    return 100 * levels_off(whole(run))
+
+
+def box_levels_error(run):
+    return 100 * box_levels_off(whole(run), 2.0)
+
+
+def box_peaks_error(run):
+    return 100 * max(abs(box_peak(whole(run), k) - 1) for k in ("P1", "P2", "P3", "P4"))
+
+
 def wave_error(run):
     y, e = whole(run).col("mode_m"), run.col("mode_linear")
     return 100 * math.sqrt(sum((a - b) ** 2 for a, b in zip(y, e)) / len(y)) / max(map(abs, e))
@@ -136,6 +162,8 @@ hydrostatic = Study(
     courant=by_integrator(dict(wall="adami", kernel="quintic"), 2.0),
     step=lambda n, h: h * (150 / n) / (SOUND * math.sqrt(150)))
 
+BOTH = dict(shifting=0.5, h=2, alpha=0.005, delta=0.2, sound=10)  # front and pressure (the scene impact's defaults)
+SMOOTH_TANK = dict(wall="adami", kernel="wendland_c2", h=2, diffusion="hydrostatic", delta=0.2)
 still_tank = Study(
     "still_tank", "still tank (G2)", "still_tank", "rms error of the pressure after 3 s, the first 10,000 steps damped",
     "% of the pressure at the bottom", "rho g depth (Gray 2001, section 2.5.2)", tank_error,
@@ -146,6 +174,11 @@ still_tank = Study(
      "adami, quintic": dict(wall="adami", kernel="quintic"),
      "adami, Wendland C2, diffusion": dict(wall="adami", kernel="wendland_c2", diffusion="hydrostatic"),
      "ghost, p from continuity, diffusion": dict(wall="ghost_compressible", diffusion="hydrostatic"),
+     "adami, Wendland C2 h 2, delta 0.2": SMOOTH_TANK,
+     "adami, Wendland C2 h 2, delta 0.2, shifting 0.5": plus(SMOOTH_TANK, shifting=0.5),
+     "as impact: shifting 0.5, h 2, alpha 0.005, delta 0.2, sound 10, floor": plus(
+         BOTH, wall="adami", kernel="wendland_c2", diffusion="hydrostatic", floor="yes",
+         integrator="kick_drift_kick", cfl=0.5),
      "adami, Shepard 40": dict(wall="adami", shepard=40)},
     doubles=("adami",), at=15,
     h={"Wendland C2": (dict(wall="adami", kernel="wendland_c2", diffusion="hydrostatic"), STEPS_H),
@@ -171,6 +204,9 @@ dam_break = Study(
      "default, predictor-corrector": PC,
      "default, predictor-corrector, no floor": plus(PC, floor="no"),
      "default, sound 7": dict(sound=7.0710678),
+     "default, shifting 0.5": dict(shifting=0.5),
+     "as impact: shifting 0.5, h 2, alpha 0.005, delta 0.2, sound 10": BOTH,
+     "for pressure: h 2, alpha 0.02, delta 0.2, sound 14": dict(h=2, alpha=0.02, delta=0.2),
      "default, corrected gradients": dict(gradient="bonet_lok"),
      "default, h 2, corrected gradients": dict(gradient="bonet_lok", h=2)},
     base=dict(books="no", frames=100), more={"default": [120], "default, sound 7": [120]}, doubles=("default",), at=30,
@@ -193,6 +229,63 @@ taylor_green = Study(
     h={"Wendland C2": ({}, [1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0]),
        "quintic": (dict(kernel="quintic"), [1.0, 1.2, 1.4, 1.6, 1.8, 2.0])},
     courant=by_integrator({}, 1.4), step=lambda n, h: h / n / 10)
+
+NO_SHIFT = dict(shifting=0, alpha=0.02, sound=14.142135623730951)
+impact_methods = {
+    "default": {}, "no shifting": dict(shifting=0), "no shifting, alpha 0.02, sound 14": NO_SHIFT,
+    "shifting 0.25": dict(shifting=0.25), "shifting 1": dict(shifting=1), "sound 14": dict(sound=14.142135623730951),
+    "alpha 0.02": dict(alpha=0.02), "delta 0.1": dict(delta=0.1),
+    "h 1.2": dict(h=1.2), "h 1.5": dict(h=1.5),
+    "as dam_break: h 1.2, alpha 0.01, delta 0.1, sound 14": plus(NO_SHIFT, h=1.2, alpha=0.01, delta=0.1),
+}
+
+
+def impact_study(name, title, norm, unit, reference, error):
+    return Study(name, title, "impact", norm, unit, reference, error, "n, particles in the column's height", [20, 40],
+                 impact_methods, base=dict(every=1e-4),
+                 more={"default": [60], "no shifting, alpha 0.02, sound 14": [60]},
+                 doubles=("default",), at=40, h={"default": ({}, [1.2, 1.5, 1.8, 2.0, 2.2])})
+
+
+impact = impact_study(
+    "impact", "dam break against a wall (B8), noise of the pressure",
+    "rms of P1 about its mean over 10 ms, t* 3.2 .. 5.5", "% of rho g H", "none; measured 0.2 (Lobovsky et al. 2014)",
+    noise_error)
+impact_top = impact_study(
+    "impact_peak", "dam break against a wall (B8), peak of the pressure",
+    "largest mean of P1 over 10 ms, off the measured", "%", "one event, 2.51 rho g H (Lobovsky et al. 2014)",
+    peak_error)
+impact_after = impact_study(
+    "impact_mean", "dam break against a wall (B8), pressure after the impact", "mean of P1, t* 3.2 .. 5.5", "%",
+    "incompressible delta-SPH, 0.972 rho g H (De Courcy et al. 2024)", mean_error)
+
+impact_levels = impact_study(
+    "impact_levels", "dam break against a wall (B8), levels", "rms of the levels H1 .. H4 until t* 4", "% of H",
+    "measured levels (Lobovsky et al. 2014), tests/refdata/lobovsky_levels.csv", levels_error)
+
+dam_break_3d = Study(
+    "dam_break_3d", "dam break of a slab in 3-D, n^2 = 1", "dam_break_3d",
+    "front, largest |Z/Z_ref - 1| for Z from 1.2 to 5, no shift in time", "%",
+    "volume-of-fluid fronts of the same tank in 2-D, tests/refdata/vof_dam_break_n2_1.csv", dam_error,
+    "n, particles across the column", [8, 12, 16],
+    {"default": {}, "default, no floor": dict(floor="no"), "default, sound 7": dict(sound=7.0710678),
+     "default, h 1.5": dict(h=1.5), "as impact: shifting 0.5, h 2, alpha 0.005, delta 0.2, sound 10": BOTH},
+    base=dict(books="no", frames=100, deep=0.5, width=0.5, length=6), more={"default": [20]}, at=12)
+
+
+def box_study(name, title, norm, unit, error):
+    return Study(name, title, "obstacle", norm, unit,
+                 "measured (Kleefsman et al. 2005), tests/refdata/spheric_test2.csv", error,
+                 "n, particles in the depth", [8, 11],
+                 {"default": {}, "no shifting, alpha 0.02, sound 14": NO_SHIFT, "sound 14": dict(sound=SOUND)},
+                 base=dict(every=0.004), at=11)
+
+
+obstacle = box_study("obstacle", "dam break against a box, 3-D (B9), levels", "rms of the levels H1 .. H4 until 2 s",
+                     "% of the depth", box_levels_error)
+obstacle_peaks = box_study("obstacle_peaks", "dam break against a box, 3-D (B9), peaks of the pressure",
+                           "largest mean over 20 ms of P1 .. P4 over the measured, the worst of them off 1", "%",
+                           box_peaks_error)
 
 channel = Study(
     "channel", "flow between two plates, Re 1 (B10)", "channel", "rms error of the velocity after H^2/nu",
@@ -338,6 +431,15 @@ hole = Study(
     h={"corrected": ({}, [1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0])},
     courant=by_integrator({}, 1.0), step=lambda n, h: h * 7 / n)
 
-STUDIES = [hydrostatic, still_tank, dam_break, taylor_green, channel, standing_wave, elliptical_drop, pulse,
-           pulse_amplitude,
-           rings, plate, hole]
+STUDIES = [hydrostatic, still_tank, dam_break, impact, impact_top, impact_after, impact_levels, dam_break_3d, obstacle,
+           obstacle_peaks, taylor_green, channel, standing_wave, elliptical_drop, pulse, pulse_amplitude, rings, plate,
+           hole]
+QUANTITY = {
+    "hydrostatic": "pressure", "still_tank": "pressure", "dam_break": "front", "impact": "pressure noise",
+    "impact_peak": "pressure peak", "impact_mean": "pressure mean", "impact_levels": "levels front",
+    "dam_break_3d": "front", "obstacle": "levels front", "obstacle_peaks": "pressure peak", "taylor_green": "energy",
+    "channel": "velocity", "standing_wave": "surface", "elliptical_drop": "front", "pulse": "speed",
+    "pulse_amplitude": "amplitude", "rings": "shape", "plate": "period", "hole": "stress",
+}
+for study in STUDIES:
+    study.quantity = QUANTITY[study.name]

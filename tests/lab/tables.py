@@ -7,7 +7,8 @@ import csv, glob, math, os
 
 NUMBERS = ("n", "x", "error", "steps", "particle_steps", "pairs", "instructions", "ended")
 COSTS = ("instructions", "pairs")
-KEYS = ("study", "title", "scene", "norm", "reference", "unit", "resolution", "command", "defaults", "atlas")
+KEYS = ("study", "title", "scene", "norm", "quantity", "reference", "unit", "resolution", "command", "defaults",
+        "atlas")
 
 
 def number(text):

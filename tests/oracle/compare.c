@@ -78,6 +78,10 @@ static void compare_body(const o_scene *s, const o_particle *p, const seen *k)
         check(power[c], p->id, 0, k->power[c], sums[c], 0);
     if (s->cfg.density == SPH_SUMMATION)
         check("summed density", p->id, 0, k->d, p->density, 0);
+    for (uint32_t c = 0; s->cfg.shifting > 0 && c < SPH_DIM; c++)
+        check("disorder", p->id, c, k->disorder[c], p->disorder[c], 0);
+    if (s->cfg.shifting > 0)
+        check("filling", p->id, 0, k->disorder[SPH_DIM], p->filling, 0);
     if (o_is_solid(s, p))
         compare_solid(s, p, k);
 }
@@ -325,6 +329,21 @@ static uint32_t flaws_of(uint32_t id, float *threshold) { return look_flaws(look
 
 static o_sum near(double v, double scale) { return (o_sum){v, scale * APART / TOLERANCE}; }
 
+/* m g dx and m c^2 d, J: what errors of places and densities make of energies; at rest a gas has a pressure */
+static double heat_of(const o_scene *s)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *p = &s->own[i];
+        const o_set *set = &s->set[p->set];
+        for (int k = 0; k < SPH_DIM; k++)
+            sum += o_is_body(s, p) ? set->mass * fabs(s->cfg.gravity[k]) * s->cfg.spacing : 0;
+        const double slope = pow(o_sound(set->eos, set->c0), 2) * (set->eos == SPH_ISOTHERMAL ? 1 : fabs(p->d));
+        sum += o_is_body(s, p) ? set->mass * slope : 0;
+    }
+    return sum;
+}
+
 static void compare_trajectories(const sph_sim *sim, const o_scene *s)
 {
     look_results(sim, kernel, 4096);
@@ -348,6 +367,10 @@ static void compare_trajectories(const sph_sim *sim, const o_scene *s)
         check("plastic strain after steps", p->id, 0, k->plastic, near(p->plastic, 1), 0);
         check("damage after steps", p->id, 0, k->root, near(p->root, 1), 0);
     }
+    sph_totals t;
+    sph_get_totals(sim, &t);
+    if (s->cfg.shifting > 0)
+        check("book of shifting", SPH_NO_PARTICLE, 0, t.shifted, near(s->shifted.v, s->shifted.s + heat_of(s)), 0);
 }
 
 /* a tenth of the smallest limit */

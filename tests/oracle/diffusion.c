@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* diffusion.c: density diffusion, between particles of one material (sph.h, SPH_MOLTENI ...):
      drho_i = 2 delta h c sum (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + eta)
-   with eta 0.01 h^2.
+   with eta 0.01 h^2, and rho_j of m_j/rho_j not below rho0/2.
    MOLTENI (Molteni & Colagrossi 2009): rho_H = 0. HYDROSTATIC (Fourtakas et al. 2019, linearised): the difference of
    density that gravity makes between the places of j and i, rho0 g . (x_j - x_i)/c^2 with
    the true sound speed c, so that still water feels none.
@@ -27,7 +27,8 @@ void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_p
         drho -= part;
         size += fabs(part);
     }
-    const double c = 2 * s->cfg.delta * h * set->c0 * p->volume;
+    const double volume = s->set[j->set].mass / o_max(j->rho, 0.5 * set->rho0);
+    const double c = 2 * s->cfg.delta * h * set->c0 * volume;
     const double eta = 0.01 * h * h;
     const double f = -p->r * p->r * p->g / (p->r * p->r + eta);
     const double near = eta / (p->r * p->r + eta) * h / o_max(p->r, 1e-4 * h);

@@ -115,6 +115,8 @@ void o_forces(o_scene *s)
         if (o_is_body(s, i) || moves)
             end(s, i);
     }
+    if (s->cfg.shifting > 0)
+        o_find_disorder(s);
     if (s->cfg.density == SPH_SUMMATION)
         o_sum_rates(s);
 }

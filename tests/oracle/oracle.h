@@ -80,6 +80,7 @@ typedef struct o_particle {
     o_sum diffused;            /* d(rho)/dt by diffusion */
     o_sum viscous, worked, pushed; /* powers for the books, W/kg */
     o_sum gradient[3][3];      /* sum m_j v_ij (x) K g (weak: m_j/rho_j), of which L is made */
+    o_sum disorder[3], filling; /* shifting: minus the slope of disorder (1/m), cover less 1; 0 where it acts not */
     double mu;                 /* largest |mu| of its pairs */
 } o_particle;
 
@@ -92,6 +93,8 @@ typedef struct o_scene {
     o_particle *own;           /* n */
     o_particle *all;           /* m: the particles and then the images */
     uint32_t room;
+    double fastest;            /* m/s: of the bodies, when the last forces were made */
+    o_sum shifted;             /* J, what shifting took since o_begin_steps */
     const char *undecided;     /* a choice that rounding decides (a pair exactly at a kernel's edge ...), or null */
 } o_scene;
 
@@ -173,6 +176,8 @@ double o_largest_principal(const double (*sigma)[3], bool plane);
 void o_yield(o_scene *s);                                                                  /* yield.c */
 double o_grown_root(o_scene *s, const o_particle *i, const float *flaw, uint32_t flaws, double dt); /* damage.c */
 double o_sponge(const o_scene *s, const o_particle *i);                                    /* sponge.c: S */
+void o_find_disorder(o_scene *s);              /* shifting.c */
+void o_shift(o_scene *s, double dt);
 void o_forces(o_scene *s);                     /* forces.c: everything before and in the force evaluation */
 
 /* a pair gives the home's acceleration `part` (m/s^2) with a scale; books.c keeps the powers of walls */

@@ -285,7 +285,7 @@ static void draw_points(plan *p)
     const sph_config *c = &p->cfg;
     const double support = o_weight_support(c->kernel) * c->smoothing_length, spread = support * range(0.8, 2);
     const double v = c->sound_speed * (chance(0.1) ? 0 : pow(10, range(-3, -0.5)));
-    const double d = chance(0.1) ? 0 : pow(10, range(-4, -0.3));
+    const double d = chance(0.1) ? 0 : pow(10, range(-4, -0.2));
     const double grain = chance(0.5) ? 0 : c->spacing, jitter = chance(0.3) ? 0 : range(0, 0.3) * c->spacing;
     uint32_t where[3];
     for (int k = 0; k < 3; k++)
@@ -344,6 +344,9 @@ void plan_draw(plan *p, uint64_t seed)
     for (int k = 0; k < SPH_DIM; k++)
         if (p->cfg.sponge_low[k] > 0 || p->cfg.sponge_high[k] > 0)
             p->cfg.sponge_rate = range(0.1, 3) * p->cfg.sound_speed / p->cfg.spacing / (p->still_step ? PLAN_STILL : 1);
+    p->cfg.shifting = p->cfg.solid == SPH_NO_SOLID && !p->still_step && chance(0.4) ? range(0.1, 4) : 0;
+    if (p->cfg.shifting > 0 && !SPH_DOUBLE) /* it pushes hard, and its bounds switch: rounding errors of floats grow */
+        p->steps = (uint32_t)o_min(p->steps, 5);
 }
 
 void plan_print(const plan *p)
@@ -360,11 +363,11 @@ void plan_print(const plan *p)
         {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"}};
     const sph_config *c = &p->cfg;
     printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, "
-           "xsph %g, integrator %u, steps %u\n",
+           "xsph %g, shifting %g, integrator %u, steps %u\n",
            (unsigned long long)p->seed, word[1][c->kernel], c->smoothing_length, c->spacing, c->rho0, c->sound_speed,
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
-           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->integrator,
-           p->steps);
+           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
+           c->integrator, p->steps);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,

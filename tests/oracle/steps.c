@@ -12,9 +12,9 @@
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
    where its motion says at each of these times. Damage grows with them, by what the strain was at the step's beginning.
-   At the end of a step sponges take. Faces: periodic
-   ones let in on the other side; a plane of symmetry takes the mirrored particle instead, with all that it has: place,
-   reference position, velocity, stress, and their rates. A no-slip mirror throws it back: what has a direction turns
+   At the end of a step sponges take, then shifting. Faces: periodic ones let in on the other side; a plane of symmetry
+   takes the mirrored particle instead, with all that it has: place, reference position, velocity, stress, and their
+   rates. A no-slip mirror throws it back: what has a direction turns
    along its normal, but the shear stress on the plane, which goes on through it, stays. */
 #include <stdlib.h>
 #include <string.h>
@@ -80,6 +80,7 @@ void o_begin_steps(o_scene *s, uint32_t room)
         abort();
     memset(was, 0, room * sizeof *was);
     last = 0;
+    s->shifted = (o_sum){0, 0};
     remember_rates(s);
 }
 
@@ -417,6 +418,8 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
             if (!is_held(s, p, k))
                 p->v[k] = s->cfg.sponge_velocity[k] + (p->v[k] - s->cfg.sponge_velocity[k]) * f;
     }
+    if (s->cfg.shifting > 0)
+        o_shift(s, dt);
     last = dt;
     if (by == SPH_RUNGE_KUTTA || by == SPH_RUNGE_KUTTA_MOMENTUM)
         return;
