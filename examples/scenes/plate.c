@@ -14,7 +14,7 @@
 #include "solid.h"
 #if SPH_DIM == 2
 
-enum { THICK = SOLID_COMMON, LENGTH, SPEED, ACROSS, CLAMP, STRETCH, CYCLES, PARAMS };
+enum { THICK = SOLID_COMMON, LENGTH, SPEED, ACROSS, CLAMP, FACES, STRETCH, CYCLES, PARAMS };
 enum { IDEAL, SURFACES, REGION };
 
 static const scene_param param[PARAMS] = {
@@ -24,6 +24,7 @@ static const scene_param param[PARAMS] = {
     {"speed", "c0", "velocity of the free end at the start, V_f", 0.01, -1, 1, SCENE_NUMBER},
     {"n", "-", "particles across the thickness", 20, 4, 400, SCENE_WHOLE},
     {"clamp", "-", "clamp: ideal surfaces region", IDEAL, 0, 2, SCENE_CHOICE},
+    {"faces", "-", "weights of particles beside free faces: equal quadrature", 0, 0, 1, SCENE_CHOICE},
     {"stretch", "-", "form total: how far a bond may be drawn", 1.3, 1, 8, SCENE_NUMBER},
     {"cycles", "-", "length of the run in periods of a thin plate", 1.3, 0, 1000, SCENE_NUMBER},
 };
@@ -61,6 +62,7 @@ static void configure(const double *p, sph_config *c)
     const double behind = p[CLAMP] == SURFACES ? whole(p, CLAMP_LENGTH) : clamp_rows(p) * dx;
     *c = solid_config(p, dx);
     c->max_stretch = p[STRETCH];
+    c->face_quadrature = p[FACES] != 0;
     c->lo[0] = -behind - 4 * dx;
     c->hi[0] = 1.2 * p[LENGTH] + 4 * dx;
     c->lo[1] = -room;
@@ -111,6 +113,7 @@ static sph_status build_ideal(sph_sim *sim, const double *p, sph_solid m)
     for (int k = 0; k < PARAMS; k++)
         values[k] = p[k];
     m.mass = along(p) * spacing(p);
+    m.flat_faces = p[FACES] != 0;
     sph_status st = sph_add_solid(sim, &m, &plate, NULL);
     m.held = 3;
     m.shear *= 0.5;
@@ -128,6 +131,7 @@ static sph_status build(sph_sim *sim, const double *p)
     const double rows = clamp_rows(p) * spacing(p), half = 0.5 * p[THICK], gray = whole(p, CLAMP_LENGTH);
     double values[PARAMS];
     sph_solid m = solid_material(p);
+    m.flat_faces = p[FACES] != 0;
     uint32_t plate = 0, clamp = 0;
     if (p[CLAMP] == IDEAL)
         return build_ideal(sim, p, m);
