@@ -36,7 +36,7 @@ static double spacing(const double *p) { return p[THICK] / p[ACROSS]; }
 /* rows and columns that a clamp needs: what the support reaches */
 static double clamp_rows(const double *p)
 {
-    return (double)(uint32_t)(sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] + 0.999999);
+    return (double)(uint32_t)(solid_support(p) + 0.999999);
 }
 /* free columns along x, and their spacing */
 static double columns(const double *p)
@@ -115,11 +115,8 @@ static sph_status build_ideal(sph_sim *sim, const double *p, sph_solid m)
     m.mass = along(p) * spacing(p);
     m.flat_faces = p[FACES] != 0;
     sph_status st = sph_add_solid(sim, &m, &plate, NULL);
+    m = solid_clamp(&m, 1);
     m.held = 3;
-    m.shear *= 0.5;
-    m.yield *= 0.5;
-    m.hardening *= 0.5;
-    m.sound_speed = __builtin_sqrt(0.5); /* c0 = 1 */
     if (st || (st = sph_add_solid(sim, &m, &clamp, NULL)) || (st = add_rows(sim, clamp, p, -1, 1)) ||
         (st = add_rows(sim, plate, p, 0, columns(p))))
         return st;
