@@ -11,7 +11,8 @@
    Q0 is a full lattice's sum, so Q = 1 away from faces; S is what the sum of (phi_r - 1)/beta times the depth of row r
    comes to on a lattice with a face (factors.c finds beta and Q0 so: Euler-Maclaurin; derived here). Forces follow from
    the energy: T_i = -phi_i sigma_i M_i^-T/rho (stress.c), so momentum, angular momentum and, with energies that are
-   weighed by phi, the books stay exact. The sum of phi - 1 over a body is 0. K and g are those of the form of solids;
+   weighed by phi, the books stay exact. The sum of phi - 1 over a body is 0. Where particles stand in no order phi stays
+   between 1/2 and 3/2. K and g are those of the form of solids;
    pairs of a held and a free set are left out of phi, for the face of a clamp is none.
 
    Field: quadrature (one real), made with the first forces of a particle and kept. Cost: two sweeps, once. */
@@ -115,8 +116,9 @@ static void cover_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void weight_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_real *const phi = &sim->buf[sim->dst].quadrature[0][t->home_at[h]];
+    const sph_real more = sim->fac.weigh * v_fold(t->sum[SUM_Q][h]), most = (sph_real)0.5;
     if (!(*phi > 0)) /* those that have a weight keep it */
-        *phi = 1 + sim->fac.weigh * v_fold(t->sum[SUM_Q][h]);
+        *phi = 1 + (more < -most ? -most : more > most ? most : more);
 }
 
 static bool solid_home(const sph_sim *sim, const sph_set *s)

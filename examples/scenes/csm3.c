@@ -36,14 +36,15 @@ static double along(const double *p, double j) { return (LENGTH - begins(p, j)) 
 
 static void configure(const double *p, sph_config *c)
 {
-    const double dx = spacing(p), falls = 15 * p[GRAVITY] / (6e-5 / 7); /* as far as A, and a little */
+    const double dx = spacing(p), way = 13.5 * p[GRAVITY] / (6e-5 / 7), falls = way < LENGTH ? way : LENGTH;
     *c = solid_config(p, dx);
     c->gravity[1] = -p[GRAVITY];
     c->face_quadrature = p[FACES] != 0;
     c->lo[0] = -0.5 - 2 * dx;
     c->hi[0] = LENGTH + 2 * dx;
-    c->lo[1] = -0.5 * HEIGHT - (falls < LENGTH ? falls : LENGTH) - 2 * dx;
-    c->hi[1] = 0.5 * HEIGHT + 0.05 * falls + 2 * dx;
+    c->lo[1] = -0.5 * HEIGHT - falls - 2 * dx;
+    c->hi[1] = c->lo[1] + 2 * falls + 1; /* no displacement may exceed half a domain */
+    c->hi[1] = c->hi[1] < 0.5 * HEIGHT + 2 * dx ? 0.5 * HEIGHT + 2 * dx : c->hi[1];
     c->max_particles = scene_capacity(p[ACROSS] * (columns(p) + 1));
 }
 
