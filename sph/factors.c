@@ -93,7 +93,7 @@ static layers sum_layers(const sph_config *c)
             for (int32_t b = -third; b <= third; b++) {
                 const double k2 = m * m + a * a + b * b;
                 double w, slope;
-                if (!(k2 > 0) || !(k2 < reach * reach))
+                if (!(k2 > 0) || !(k2 < reach * reach * (1 - 1e-9))) /* on the edge: beyond, whatever rounding says */
                     continue;
                 sph_kernel_value(c->kernel, __builtin_sqrt(k2) * dx, c->smoothing_length, &w, &slope);
                 l.all[m] += slope * __builtin_sqrt(k2); /* g K^2 = dW/dr r */

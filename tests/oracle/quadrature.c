@@ -23,7 +23,7 @@ static void row_sums(const o_scene *s, int r, double *all, double *along, double
         for (int a = -n; a <= n; a++)
             for (int b = -third; b <= third; b++) {
                 const double q = dx * sqrt(m * m + a * a + b * b);
-                if (!(q > 0) || r + m < 0)
+                if (!(q > 0) || r + m < 0 || q > s->support * (1 - 1e-9)) /* an edge may be a step: beyond */
                     continue;
                 const double g = o_weight_slope(s->cfg.kernel, q, h) / q * pow(dx, SPH_DIM);
                 *all += q * q * g;
