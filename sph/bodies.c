@@ -100,6 +100,8 @@ static sph_status check_solid(sph_sim *sim, const sph_solid *m)
         return sph_setup_bad(sim, "yield", "0, or a configuration with yield and shear > 0", m->yield);
     if (sph_damages(&sim->cfg) && !(m->shear > 0))
         return sph_setup_bad(sim, "shear", "> 0 with damage", m->shear);
+    if (m->flat_faces && !sph_weighs_faces(&sim->cfg))
+        return sph_setup_bad(sim, "flat_faces", "false, or a configuration with face_quadrature", 1);
     if (m->body > 255)
         return sph_setup_bad(sim, "body", "0 .. 255", m->body);
     if (m->held >> SPH_DIM || (m->held && !SPH_HAS_HELD))
@@ -131,14 +133,16 @@ sph_status sph_add_solid(sph_sim *sim, const sph_solid *m, uint32_t *set, uint32
         return st;
     s->role = SPH_ROLE_SOLID;
     sph_material *rock = &sim->material[sim->sets];
-    *rock = (sph_material){m->shear, m->yield, m->hardening, 0, (sph_real)m->shear, m->body, m->held};
+    *rock = (sph_material){m->shear, m->yield, m->hardening, 0, (sph_real)m->shear, m->body, m->held,
+                           m->flat_faces};
     const double radius = m->flaw_radius > 0 ? m->flaw_radius : radius_of(s->mass / s->rho0);
     rock->crack_rate = (m->crack_speed > 0 ? m->crack_speed : 0.4 * s->c0) / radius;
     if (m->held)
         s->group = sph_setup_add_group(sim, m->motion, m->motion_ctx);
     if (group)
         *group = s->group;
-    sim->setup_hash = sph_mix(sim->setup_hash, (uint64_t)m->body | (uint64_t)m->held << 8);
+    sim->setup_hash = sph_mix(sim->setup_hash, (uint64_t)m->body | (uint64_t)m->held << 8 |
+                                                    (uint64_t)m->flat_faces << 16);
     const double v[] = {rock->shear, rock->yield, rock->hardening, rock->crack_rate};
     for (size_t i = 0; i < sizeof v / sizeof *v; i++)
         sim->setup_hash = sph_mix_double(sim->setup_hash, v[i]);

@@ -13,6 +13,8 @@
     X(mirror, 1, 2 * SPH_DIM + 2, SPH_HAS_LAYERED_WALLS, true)                                                     \
     X(stress, 0, SPH_NL + SPH_NT, SPH_WITH_SOLID, sph_has_solids(c))                                               \
     X(reference, 0, SPH_DIM + 1, SPH_HAS_TOTAL, sph_is_total(c))                                                   \
+    X(quadrature, 0, 2, SPH_HAS_QUADRATURE, sph_weighs_faces(c))                                                   \
+    X(cover, 0, 1, SPH_HAS_QUADRATURE, sph_weighs_faces(c))                                                        \
     X(smoothed, 0, SPH_DIM, SPH_HAS_HAT, sph_smooths_strain(c))                                                    \
     X(gradient, 0, SPH_NT, SPH_HAS_FLUID_GRADIENT, sph_corrects_fluids(c))                                         \
     SPH_EXTRA_COLUMNS(X)

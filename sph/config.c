@@ -59,9 +59,10 @@ static sph_status check_solids(const sph_config *c, sph_report *r)
     const bool solid = sph_has_solids(c);
     if (!SPH_WITH_SOLID) /* whatever they ask for was refused as left out */
         return SPH_OK;
-    if (!solid && (c->yield || c->damage || c->artificial_stress || c->xsph_strain))
-        return sph_refuse(r, "solid", "a solid form, where yield, damage, artificial_stress or xsph_strain is on",
-                          c->solid);
+    if (!solid && (c->yield || c->damage || c->artificial_stress || c->xsph_strain ||
+                   c->face_quadrature))
+        return sph_refuse(r, "solid", "a solid form, where yield, damage, artificial_stress, xsph_strain or "
+                                    "face_quadrature is on", c->solid);
     if (!solid)
         return SPH_OK;
     if (c->scheme != SPH_STANDARD && c->scheme != SPH_WEAK)
@@ -72,6 +73,8 @@ static sph_status check_solids(const sph_config *c, sph_report *r)
         return sph_refuse(r, "artificial_stress", "none with SPH_TOTAL", c->artificial_stress);
     if (c->xsph_strain && !(c->xsph > 0))
         return sph_refuse(r, "xsph", "> 0 where xsph_strain is on", c->xsph);
+    if (sph_weighs_faces(c) && !sph_corrects(c))
+        return sph_refuse(r, "face_quadrature", "with SPH_CORRECTED or SPH_TOTAL", c->solid);
     if (sph_damages(c) && (c->max_flaws < 1 || c->max_flaws > 1u << 30))
         return sph_refuse(r, "max_flaws", "1 .. 2^30 with damage", c->max_flaws);
     return SPH_OK;

@@ -77,6 +77,60 @@ static bool loses_energy(const sph_config *c)
     return loses;
 }
 
+/* Sums over the layers of a lattice at distances m dx from a home, m = 0 .. n - 1: of V K^2 g, and of V K_t^2 g, t an
+   axis along the layer */
+typedef struct layers {
+    double all[32], along[32];
+    uint32_t n;
+} layers;
+static layers sum_layers(const sph_config *c)
+{
+    const double dx = c->spacing, reach = sph_kernel_support(c->kernel) * c->smoothing_length / dx;
+    layers l = {{0}, {0}, (uint32_t)reach + 1};
+    const int32_t most = (int32_t)l.n, third = SPH_DIM == 3 ? most : 0;
+    for (int32_t m = 0; m < most; m++)
+        for (int32_t a = -most; a <= most; a++)
+            for (int32_t b = -third; b <= third; b++) {
+                const double k2 = m * m + a * a + b * b;
+                double w, slope;
+                if (!(k2 > 0) || !(k2 < reach * reach * (1 - 1e-9))) /* on the edge: beyond, whatever rounding says */
+                    continue;
+                sph_kernel_value(c->kernel, __builtin_sqrt(k2) * dx, c->smoothing_length, &w, &slope);
+                l.all[m] += slope * __builtin_sqrt(k2); /* g K^2 = dW/dr r */
+                l.along[m] += slope / __builtin_sqrt(k2) * a * a;
+            }
+    return l;
+}
+
+/* Q0 and beta of quadrature.c, from rows r of a half space, r dx deeper than the outermost */
+static void make_weights(const sph_config *c, double slope, sph_factors *f)
+{
+    const layers l = sum_layers(c);
+    double full = -l.all[0], deeper = 1.0 / 24, moment = 0;
+    for (uint32_t m = 0; m < l.n; m++)
+        full += 2 * l.all[m];
+    for (uint32_t r = 0; r < 2 * l.n; r++) {
+        double above = 0, along = l.along[0], weight = 0; /* what the face cuts off; what is left along it; phi - 1 */
+        for (uint32_t m = 1; m < l.n; m++) {
+            above += m > r ? l.along[m] * m : 0;
+            along += l.along[m] * (m > r ? 1 : 2);
+        }
+        for (uint32_t m = 1; m < l.n; m++) {
+            double up = 0, down = 0; /* by how much Q of row r - m, r + m is above that of row r */
+            for (uint32_t k = 1; k < l.n; k++) {
+                up -= k > r - m && k <= r ? l.all[k] : 0;
+                down += k > r && k <= r + m ? l.all[k] : 0;
+            }
+            weight += l.all[m] * ((m <= r ? up : 0) + down);
+        }
+        deeper += above / along;
+        moment -= weight / (full * full) * r;
+    }
+    const double volume = SPH_DIM == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
+    f->cover = full < 0 ? (sph_real)(slope / (full * volume * c->spacing)) : 0; /* else nobody has neighbours */
+    f->weigh = full < 0 ? (sph_real)(deeper / moment) : 0;
+}
+
 /* constants of the pair formulas; made at init and when the configuration changes */
 void sph_make_factors(sph_sim *sim)
 {
@@ -100,6 +154,8 @@ void sph_make_factors(sph_sim *sim)
         const double density = sph_weak_scheme(c->scheme) ? c->rho0 : 1 / c->rho0;
         f->contact = (sph_real)(2 * c->sound_speed * c->sound_speed * density);
     }
+    if (sph_weighs_faces(c))
+        make_weights(c, slope, f);
     /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = (rho_i + rho_j) |mu'| */
     f->av_alpha = (sph_real)(2 * h * c->alpha * c->sound_speed);
     f->av_beta = (sph_real)(2 * h * h * c->beta);

@@ -548,6 +548,7 @@ static void finish_powers(sph_sim *sim, const sph_thread *t, uint32_t h, sph_rea
     const sph_real rho = t->home.rho[h], press = t->home.press[h], moved = t->sum[SUM_BOUNDARY][h][SPH_DIM];
     const sph_real ratio = sph_weak_scheme(sim->cfg.scheme) ? press / (rho * rho) : press;
     const sph_real whole = SPH_WITH_SOLID && press < 0 ? sph_whole_of(&sim->buf[sim->dst], i) : 1;
+    const sph_real phi = sph_quadrature_of(&sim->buf[sim->dst], i);
     sph_real in = moved, lost = 0; /* springs of boundary forces; what XSPH's drift does in gravity */
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         if (SPH_HAS_FORCE_WALLS && sim->has_force_wall)
@@ -566,7 +567,7 @@ static void finish_powers(sph_sim *sim, const sph_thread *t, uint32_t h, sph_rea
     }
     sim->power[POWER_DISSIPATED][i] = v_fold(t->sum[SUM_VISCOUS][h]) * f->slope;
     sim->power[POWER_WALL][i] = moved - v_fold(t->sum[SUM_WALL][h]) * f->slope;
-    sim->power[POWER_DIFFUSED][i] = -(v_fold(t->sum[SUM_DIFFUSED][h]) * f->slope * ratio * whole);
+    sim->power[POWER_DIFFUSED][i] = -(v_fold(t->sum[SUM_DIFFUSED][h]) * f->slope * ratio * whole * phi);
     sim->power[POWER_BODY][i] = body;
     sim->power[POWER_IN_WALLS][i] = in;
     sim->power[POWER_IN_BONDS][i] = SPH_WITH_SOLID && f->bonds ? v_fold(t->sum[SUM_IN_BONDS][h]) * f->slope : 0;

@@ -58,6 +58,7 @@ static const sph_member material_fields[] = {
     {"crack_rate", "1/s", M_DOUBLE, 1, AT(sph_material, crack_rate)},
     {"body", "1", M_U32, 1, AT(sph_material, body)},
     {"held", "1", M_U32, 1, AT(sph_material, held)},
+    {"flat", "1", M_BOOL, 1, AT(sph_material, flat)},
 };
 static const sph_member group_fields[] = {
     {"moved", "quantum", M_POS, SPH_DIM, AT(sph_group_state, moved)},

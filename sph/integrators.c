@@ -254,7 +254,8 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
     &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge), MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
 
 typedef const sph_pass *const list[];
-static list first_forces = {&pass_begin, SORT, DENSITIES, FORCES, &pass_prime};
+#define WEIGHTS MODULE(SPH_HAS_QUADRATURE, sph_pass_cover), MODULE(SPH_HAS_QUADRATURE, sph_pass_quadrature)
+static list first_forces = {&pass_begin, SORT, WEIGHTS, DENSITIES, FORCES, &pass_prime};
 static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, END(pass_correct)};
 static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_kick)};
 static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};

@@ -55,6 +55,7 @@ typedef struct sph_material {
     double shear, yield, hardening, crack_rate; /* Pa; crack_rate: crack speed over flaw radius, 1/s */
     sph_real shear_r;
     uint32_t body, held; /* held: bits 1 << axis */
+    bool flat;
 } sph_material;
 
 /* wall sets that move or vanish together */
@@ -84,6 +85,7 @@ typedef struct sph_factors {
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real most_inv_rho;       /* diffusion: of a neighbour, 2/rho0 (tiles.c) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
+    sph_real cover, weigh;       /* quadrature: slope over Q0, beta */
     bool rate_by_density, continuity, extras;
     bool loses, bonds;           /* books: the form does not conserve energy; contact or artificial stress */
 } sph_factors;
@@ -272,6 +274,7 @@ SPH_INLINE bool sph_foresees(const sph_config *c)
 }
 SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->solid == SPH_TOTAL; }
 SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
+SPH_INLINE bool sph_weighs_faces(const sph_config *c) { return SPH_HAS_QUADRATURE && c->face_quadrature; }
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
 SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }
@@ -304,6 +307,9 @@ double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double
 /* 1 - D of a particle */
 #define sph_whole_of SPH_NAME(whole_of_)
 sph_real sph_whole_of(const sph_buffer *b, uint32_t i);
+/* phi of a particle (quadrature.c) */
+#define sph_quadrature_of SPH_NAME(quadrature_of_)
+sph_real sph_quadrature_of(const sph_buffer *b, uint32_t i);
 /* The energy that a particle of a buffer holds (J): of motion; in gravity, from height 0; of compression by the
    pressure that acts; of distortion, (1 - D) S:S/(4 mu) on its volume at rest; and what its yielding took. */
 typedef struct sph_energy {

@@ -134,6 +134,8 @@
       "epsilon of the artificial stress; 0.3 is usual")                                                               \
     O(A, xsph_strain, BOOL, false, 0, 1, SPH_HAS_HAT, "false or true", FIXED, "-",                                    \
       "strain rates from the smoothed velocity (Gray 2001 eq 5.10; needs xsph; costs a sweep)")                       \
+    O(A, face_quadrature, BOOL, false, 0, 1, SPH_HAS_QUADRATURE, "false or true", FIXED, "-",                         \
+      "quadrature weights beside the faces of sets with flat_faces (SPH_CORRECTED, SPH_TOTAL)")                        \
     O(A, max_stretch, REAL, 1.25, 1, 8, true, "1 .. 8", FIXED, "-",                                                   \
       "SPH_TOTAL: how far a bond may be drawn, in supports; cells grow with it")                                      \
     SPH_SHIFTING_OPTIONS(O, P, A)                                                                                     \

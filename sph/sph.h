@@ -302,11 +302,13 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_DAMAGE 256u /* flaws: 4 bytes each, to be added */
 #define SPH_USE_MIRRORS 512u /* symmetry or no-slip mirror faces */
 #define SPH_USE_SHIFTING 1024u
+#define SPH_USE_QUADRATURE 2048u /* face_quadrature */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
     ((((use)&SPH_USE_SOLID) ? 2u * SPH_STRESSES * SPH_REAL_ : 0u) +                                         \
      (((use)&SPH_USE_TOTAL) ? SPH_DIM * SPH_REAL_ : 0u) +                                                   \
+     (((use)&SPH_USE_QUADRATURE) ? SPH_REAL_ : 0u) +                                                        \
      (((use)&SPH_USE_YIELD) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? SPH_REAL_ : 0u))
 #define SPH_STATE_BYTES_ ((2u * SPH_DIM + SPH_DIM + 2u) * (SPH_DOUBLE ? 8u : 4u) + 4u + 1u)
 #define SPH_PARTICLE_BYTES(use)                                                                             \
@@ -423,6 +425,7 @@ typedef struct sph_solid {
     double crack_speed;             /* m/s, 0: 0.4 sound_speed */
     double flaw_radius;             /* m, 0: that of the disc (ball) of a particle's volume */
     uint32_t body;                  /* SPH_TOTAL: sets of the same number are one body; 0 .. 255 */
+    bool flat_faces;                /* with face_quadrature: particles beside its free faces have quadrature weights */
     uint32_t held;                  /* bits 1 << axis: along these the set moves as `motion` says, not by forces */
     sph_motion motion;              /* null: at rest */
     void *motion_ctx;

@@ -83,6 +83,11 @@ static double distortion_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
     return mu > 0 && whole > 0 ? w / (4 * mu * whole) : 0;
 }
 
+sph_real sph_quadrature_of(const sph_buffer *b, uint32_t i)
+{
+    return SPH_HAS_QUADRATURE && b->quadrature[0] && b->quadrature[0][i] > 0 ? b->quadrature[0][i] : 1;
+}
+
 sph_energy sph_energy_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 {
     const sph_set *s = &sim->set[b->set[0][i]];
@@ -95,8 +100,10 @@ sph_energy sph_energy_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
     if (SPH_WITH_SOLID && sph_is_solid(s)) {
         const sph_material *m = sph_material_of(sim, s);
         const double ep = SPH_HAS_YIELD && b->plastic[0] ? (double)b->plastic[0][i] : 0;
-        e.elastic = s->mass / s->rho0 * distortion_of(sim, b, i);
-        e.plastic = s->mass / s->rho0 * ep * (m->yield + 0.5 * m->hardening * ep);
+        const double phi = (double)sph_quadrature_of(b, i), volume = phi * s->mass / s->rho0;
+        e.internal *= phi;
+        e.elastic = volume * distortion_of(sim, b, i);
+        e.plastic = volume * ep * (m->yield + 0.5 * m->hardening * ep);
     }
     return e;
 }

@@ -12,6 +12,7 @@ SPH_OBJECT(stress)
 
 #if SPH_WITH_SOLID
 #include "eos_lanes.h"
+#include "quadrature.h"
 
 /* ---- columns ---- */
 
@@ -104,6 +105,13 @@ SPH_INLINE void load_repulsion(const sph_candidates *r, const vreal *s, vreal w,
         }
 }
 
+SPH_INLINE void weigh(vreal phi, vreal *t)
+{
+    SPH_UNROLL_MANY
+    for (uint32_t k = 0; k < SPH_NL; k++)
+        t[k] = t[k] * phi;
+}
+
 void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const sph_config *c = &r->sim->cfg;
@@ -121,6 +129,8 @@ void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row)
             t[k] = -(s[sph_sym[k / SPH_DIM][k % SPH_DIM]] * w);
         if (corrects)
             corrected_stress(r, i, rho, s, t);
+        if (SPH_HAS_QUADRATURE && r->b->quadrature[0])
+            weigh(sph_quadrature_at(r->b, i), t);
         if (!SPH_HAS_IMAGES || !r->im->is_image) {
             SPH_UNROLL_MANY
             for (uint32_t k = 0; k < SPH_NL; k++)
@@ -217,6 +227,6 @@ sph_real sph_stress_surplus(const sph_sim *sim, const sph_set *set, uint32_t i, 
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t c = 0; c < SPH_DIM; c++)
             power += s[k][c] * l[k][c];
-    return power * sph_whole_of(b, i) * (set->inv_rho0_r - 1 / rho);
+    return power * sph_whole_of(b, i) * (set->inv_rho0_r - 1 / rho) * sph_quadrature_of(b, i);
 }
 #endif

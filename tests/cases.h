@@ -21,6 +21,7 @@ typedef struct bits_case {
     uint32_t gradient;
     uint32_t sponge;                      /* SPONGE_... */
     bool shifting;
+    bool flat;                            /* weights beside flat faces: none in 1-D */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -128,6 +129,10 @@ static const bits_case bits_cases[] = {
     {"shifting_periodic", CASE_BASE, .shifting = true, .face = SPH_PERIODIC, .integrator = SPH_LEAP_FROG},
     {"shifting_symmetry", CASE_BASE, .shifting = true, .face = SPH_SYMMETRY, .integrator = SPH_KICK_DRIFT_KICK,
      .gradient = SPH_BONET_LOK},
+    {"quadrature_total", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = CASE_NO_WALL,
+     .solid = SPH_TOTAL, .integrator = SPH_KICK_DRIFT_KICK, .held = true, .books = true, .flat = true},
+    {"quadrature_corrected", CASE_SOLID, .solid = SPH_CORRECTED, .face = SPH_SYMMETRY, .yield = SPH_VON_MISES,
+     .flat = true},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -193,6 +198,7 @@ static sph_config case_config(const bits_case *b)
     c.max_flaws = 40000;
     c.artificial_stress = b->repel;
     c.xsph_strain = b->hat;
+    c.face_quadrature = SPH_DIM > 1 && b->flat;
     c.on_leave = SPH_REMOVE;
     c.on_cross = SPH_PUT_BACK;
     if (b->body)
@@ -280,6 +286,7 @@ static sph_status case_solids(sph_sim *sim, const bits_case *b, uint32_t *set, u
     rock.shear = 1e5;
     rock.yield = b->yield ? 2e3 : 0;
     rock.hardening = 5e3;
+    rock.flat_faces = SPH_DIM > 1 && b->flat;
     sph_status st = sph_add_solid(sim, &rock, set, NULL);
     rock.held = 1;
     rock.motion = case_motion;

@@ -107,6 +107,7 @@ static UNUSED sph_config random_config(uint32_t number)
     else
         scene_fluids(&c);
     scene_box(&c);
+    c.face_quadrature = SPH_DIM > 1 && c.solid >= SPH_CORRECTED && number % 2;
     c.max_particles = SPH_DIM == 1 ? 200 : SPH_DIM == 2 ? 900 : 3500;
     return c;
 }
@@ -132,6 +133,7 @@ static UNUSED uint32_t scene_rock(sph_sim *sim, const sph_config *c, bool held)
 {
     sph_solid rock = {.shear = 1e5, .yield = c->yield ? 2e3 : 0, .hardening = 5e3};
     uint32_t set;
+    rock.flat_faces = c->face_quadrature;
     if (held) {
         rock.held = 1 + scene_draw((1u << SPH_DIM) - 1);
         rock.motion = scene_one_in(2) ? scene_motion : NULL;

@@ -346,14 +346,16 @@ static void add_piece(void *ctx, const char *name, size_t bytes)
 }
 
 /* whether SPH_USE_ flags can stand together: the filter and shifting not with solids, what solids have not without; a
-   corrected form is one */
+   total form is a corrected one, and weights beside faces go with these */
 static bool usable(uint32_t use)
 {
     const bool solid = use & SPH_USE_SOLID;
     if (solid ? use & (SPH_USE_FILTER | SPH_USE_SHIFTING)
               : use & (SPH_USE_CORRECTED | SPH_USE_TOTAL | SPH_USE_YIELD | SPH_USE_DAMAGE))
         return false;
-    return (!(use & SPH_USE_TOTAL) || use & SPH_USE_CORRECTED) && (SPH_DIM > 1 || !(use & SPH_USE_DAMAGE));
+    if (!(use & SPH_USE_CORRECTED) && use & (SPH_USE_TOTAL | SPH_USE_QUADRATURE))
+        return false;
+    return SPH_DIM > 1 || !(use & (SPH_USE_DAMAGE | SPH_USE_QUADRATURE));
 }
 
 /* the constant expression against the function, over a spread of configurations */
@@ -362,7 +364,7 @@ static void the_constant_bound_holds_and_is_close(void **state)
     static const uint32_t particles[] = {1, 100, 5000, 200000};
     (void)state;
     for (uint32_t n = 0; n < 4; n++)
-        for (uint32_t bits = 0; bits < 1024; bits++)
+        for (uint32_t bits = 0; bits < 4096; bits++)
             for (uint32_t threads = 1; threads <= 8 && usable(bits); threads *= 8) {
                 const uint32_t flaws = bits & SPH_USE_DAMAGE ? 7 * particles[n] : 0;
                 sph_config c = base();
@@ -374,6 +376,8 @@ static void the_constant_bound_holds_and_is_close(void **state)
                 c.books = (bits & SPH_USE_BOOKS) != 0;
                 c.shepard_every = bits & SPH_USE_FILTER ? 20 : 0;
                 c.shifting = bits & SPH_USE_SHIFTING ? 0.5 : 0;
+                c.face_quadrature = (bits & SPH_USE_QUADRATURE) != 0;
+                c.face[0][0] = bits & SPH_USE_MIRRORS ? SPH_SYMMETRY : SPH_OPEN;
                 c.solid = bits & SPH_USE_TOTAL ? SPH_TOTAL : bits & SPH_USE_CORRECTED ? SPH_CORRECTED :
                     bits & SPH_USE_SOLID ? SPH_UPDATED : 0;
                 c.yield = bits & SPH_USE_YIELD ? SPH_VON_MISES : SPH_NO_YIELD;

@@ -30,14 +30,15 @@ static bool combine(uint32_t i, combination *o)
     c->yield = i & 32 ? SPH_VON_MISES : SPH_NO_YIELD;
     c->damage = i & 64 ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
     o->flaws = c->max_flaws = i & 64 ? 50 : 0;
-    c->solid = i >> 7;
+    c->solid = i >> 7 & 3;
+    c->face_quadrature = i >> 9;
     c->face[0][1] = i % 3 == 1 ? SPH_SYMMETRY : i % 3 == 2 ? SPH_MIRROR_NO_SLIP : SPH_OPEN;
     o->use = (i & 1 ? SPH_USE_RUNGE_KUTTA : 0) | (i & 2 ? SPH_USE_XSPH : 0) | (i & 4 ? SPH_USE_BOOKS : 0) |
              (i & 24 ? SPH_USE_FILTER : 0) | (i & 32 ? SPH_USE_YIELD : 0) | (i & 64 ? SPH_USE_DAMAGE : 0) |
-             (i % 3 ? SPH_USE_MIRRORS : 0) | use_of_solid[c->solid];
+             (i % 3 ? SPH_USE_MIRRORS : 0) | (i >> 9 ? SPH_USE_QUADRATURE : 0) | use_of_solid[c->solid];
     return sph_config_check(c, NULL) == SPH_OK;
 }
-enum { COMBINATIONS = SPH_SOLIDS << 7 };
+enum { COMBINATIONS = SPH_SOLIDS << 8 };
 
 static void the_constant_is_never_too_small(void **state)
 {

@@ -30,7 +30,8 @@ static void configure(const double *p, sph_config *c)
 static sph_status build(sph_sim *sim, const double *p)
 {
     sph_solid m = solid_material(p);
-    const double half = 0.5 * p[PLATE_LENGTH], inside = half - plate_end(p), dx = plate_spacing(p);
+    const double dx = plate_spacing(p), off = p[PLATE_CLAMP] != 0 ? 0.5 * dx : 0; /* ideal: half a spacing outwards */
+    const double half = 0.5 * p[PLATE_LENGTH] + off, inside = half - 2 * off - plate_end(p);
     uint32_t middle, set;
     sph_status st;
     m.crack_speed = p[CRACK_SPEED];

@@ -3,19 +3,20 @@
    plastic. It reaches from x = 0 to its length. The clamp is the face x = 0 (ideal), the region x < 0 held as a whole
    (region), or 8 cm of plate between rows of held particles on both surfaces (surfaces: Gray's clamp).
      A clamp in the region x < 0 lets a displacement vanish where its first centres are, half a spacing and more behind
-   the face, which costs the first order of the spacing. The ideal clamp is one row of held particles whose centres
-   stand on the face; half of each lies in the plate, so its stress counts by half: shear modulus, yield stress and
-   c0^2 of that set are halved, its mass and weight stay. The free rows begin a spacing from the face and end half a
-   spacing from the end, length = (columns + 1/2) dx: their spacing along x is a little off that across.
-     Starts from rest in shape with the velocity of the mode
+     the face, which costs the first order of the spacing. The ideal clamp is one row of held particles whose centres
+     stand on the face (solid_clamp in solid.h). The free rows begin a spacing from the face and end half a spacing from
+     the end, length = (columns + 1/2) dx: their spacing along x is a little off that across.
+     Gray's clamp mended in the same way (on_surfaces): held rows stand on both surfaces, and the rows of the plate between
+     them are a spacing H/(n + 1) apart, a little less than in front of the clamp.
+   Starts from rest in shape with the velocity of the mode
      V(x) = V_f [A (cosh bx - cos bx) + B (sinh bx - sin bx)]/(the same at L), cos bL cosh bL = -1, b L = 1.8751
    of a thin plate, whose period is 2 pi/sqrt(mu H^2 b^4/(6 rho (1 - nu))) (eq 6.3); tests/refdata/fe_plate_periods.csv
    has those of plane-strain finite elements. */
 #include "solid.h"
 #if SPH_DIM == 2
 
-enum { THICK = SOLID_COMMON, LENGTH, SPEED, ACROSS, CLAMP, STRETCH, CYCLES, PARAMS };
-enum { IDEAL, SURFACES, REGION };
+enum { THICK = SOLID_COMMON, LENGTH, SPEED, ACROSS, CLAMP, FACES, STRETCH, CYCLES, PARAMS };
+enum { IDEAL, SURFACES, REGION, ON_SURFACES };
 
 static const scene_param param[PARAMS] = {
     SOLID_PARAMS(SPH_WENDLAND_C2, 0.8, 0, 0, SPH_KICK_DRIFT_KICK, 0.7, SPH_TOTAL, SPH_PRINCIPAL, 0.22, 0),
@@ -23,7 +24,8 @@ static const scene_param param[PARAMS] = {
     {"length", "cm", "free length", 20, 0.1, 1000, SCENE_NUMBER},
     {"speed", "c0", "velocity of the free end at the start, V_f", 0.01, -1, 1, SCENE_NUMBER},
     {"n", "-", "particles across the thickness", 20, 4, 400, SCENE_WHOLE},
-    {"clamp", "-", "clamp: ideal surfaces region", IDEAL, 0, 2, SCENE_CHOICE},
+    {"clamp", "-", "clamp: ideal surfaces region on_surfaces", IDEAL, 0, 3, SCENE_CHOICE},
+    {"faces", "-", "weights of particles beside free faces: equal quadrature", 0, 0, 1, SCENE_CHOICE},
     {"stretch", "-", "form total: how far a bond may be drawn", 1.3, 1, 8, SCENE_NUMBER},
     {"cycles", "-", "length of the run in periods of a thin plate", 1.3, 0, 1000, SCENE_NUMBER},
 };
@@ -35,7 +37,7 @@ static double spacing(const double *p) { return p[THICK] / p[ACROSS]; }
 /* rows and columns that a clamp needs: what the support reaches */
 static double clamp_rows(const double *p)
 {
-    return (double)(uint32_t)(sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] + 0.999999);
+    return (double)(uint32_t)(solid_support(p) + 0.999999);
 }
 /* free columns along x, and their spacing */
 static double columns(const double *p)
@@ -58,14 +60,16 @@ static double period(const double *p)
 static void configure(const double *p, sph_config *c)
 {
     const double dx = spacing(p), room = 0.75 * p[LENGTH] + 4 * p[THICK];
-    const double behind = p[CLAMP] == SURFACES ? whole(p, CLAMP_LENGTH) : clamp_rows(p) * dx;
+    const bool long_clamp = p[CLAMP] == SURFACES || p[CLAMP] == ON_SURFACES;
+    const double behind = long_clamp ? whole(p, CLAMP_LENGTH) : clamp_rows(p) * dx;
     *c = solid_config(p, dx);
     c->max_stretch = p[STRETCH];
+    c->face_quadrature = p[FACES] != 0;
     c->lo[0] = -behind - 4 * dx;
     c->hi[0] = 1.2 * p[LENGTH] + 4 * dx;
     c->lo[1] = -room;
     c->hi[1] = room;
-    const double rows = p[ACROSS] + (p[CLAMP] == SURFACES ? 2 * clamp_rows(p) : 0);
+    const double rows = p[ACROSS] + (p[CLAMP] == SURFACES ? 2 * clamp_rows(p) : long_clamp ? 2 : 0);
     c->max_particles = scene_capacity((p[ACROSS] * (p[LENGTH] + 2 * dx) + rows * (behind + 2 * dx)) / dx);
 }
 
@@ -111,16 +115,40 @@ static sph_status build_ideal(sph_sim *sim, const double *p, sph_solid m)
     for (int k = 0; k < PARAMS; k++)
         values[k] = p[k];
     m.mass = along(p) * spacing(p);
+    m.flat_faces = p[FACES] != 0;
     sph_status st = sph_add_solid(sim, &m, &plate, NULL);
+    m = solid_clamp(&m, 1);
     m.held = 3;
-    m.shear *= 0.5;
-    m.yield *= 0.5;
-    m.hardening *= 0.5;
-    m.sound_speed = __builtin_sqrt(0.5); /* c0 = 1 */
     if (st || (st = sph_add_solid(sim, &m, &clamp, NULL)) || (st = add_rows(sim, clamp, p, -1, 1)) ||
         (st = add_rows(sim, plate, p, 0, columns(p))))
         return st;
     return sph_apply_field(sim, plate, swing, values);
+}
+
+/* Gray's clamp with held rows on the surfaces: the free part, the part between the held rows, the held rows */
+static sph_status build_on_surfaces(sph_sim *sim, const double *p, sph_solid m)
+{
+    const double n = p[ACROSS], dx = spacing(p), dy = p[THICK] / (n + 1), behind = whole(p, CLAMP_LENGTH);
+    double values[PARAMS];
+    uint32_t plate, part, clamp;
+    for (int k = 0; k < PARAMS; k++)
+        values[k] = p[k];
+    sph_status st = sph_add_solid(sim, &m, &plate, NULL);
+    m.mass = dx * dy;
+    if (st || (st = sph_add_solid(sim, &m, &part, NULL)))
+        return st;
+    m = solid_clamp(&m, 1);
+    m.held = 3;
+    if ((st = sph_add_solid(sim, &m, &clamp, NULL)) ||
+        (st = add_box(sim, plate, 0, columns(p) * dx, -0.5 * p[THICK], 0.5 * p[THICK])))
+        return st;
+    for (int held = 0; held < 2; held++)
+        for (double j = held ? 0 : 1; j < (held ? n + 2 : n + 0.5) && !st; j += held ? n + 1 : 1)
+            for (double x = 0.5 * dx - behind; x < 0 && !st; x += dx) {
+                const double at[2] = {x, j * dy - 0.5 * p[THICK]};
+                st = sph_add_particle(sim, held ? clamp : part, at, NULL, 0, NULL);
+            }
+    return st ? st : sph_apply_field(sim, plate, swing, values);
 }
 
 static sph_status build(sph_sim *sim, const double *p)
@@ -128,9 +156,12 @@ static sph_status build(sph_sim *sim, const double *p)
     const double rows = clamp_rows(p) * spacing(p), half = 0.5 * p[THICK], gray = whole(p, CLAMP_LENGTH);
     double values[PARAMS];
     sph_solid m = solid_material(p);
+    m.flat_faces = p[FACES] != 0;
     uint32_t plate = 0, clamp = 0;
     if (p[CLAMP] == IDEAL)
         return build_ideal(sim, p, m);
+    if (p[CLAMP] == ON_SURFACES)
+        return build_on_surfaces(sim, p, m);
     for (int k = 0; k < PARAMS; k++)
         values[k] = p[k];
     sph_status st = sph_add_solid(sim, &m, &plate, NULL);
@@ -159,7 +190,7 @@ static double tip(const sph_sim *sim, const double *p)
 {
     /* the plate is added before Gray's clamp and after any other, rows from low y, in a row from low x */
     const uint32_t n = (uint32_t)p[ACROSS], held = p[CLAMP] == IDEAL ? 1 : (uint32_t)clamp_rows(p);
-    const uint32_t first = p[CLAMP] == SURFACES ? 0 : held * n;
+    const uint32_t first = p[CLAMP] == SURFACES || p[CLAMP] == ON_SURFACES ? 0 : held * n;
     const uint32_t behind = p[CLAMP] == SURFACES ? (uint32_t)(whole(p, CLAMP_LENGTH) / spacing(p) + 0.5) : 0;
     const uint32_t row = (uint32_t)columns(p) + behind;
     const uint32_t low = first + row * ((n - 1) / 2) + row - 1, high = first + row * (n / 2) + row - 1;

@@ -7,9 +7,8 @@
 #include "solid.h"
 #if SPH_DIM == 2
 
-enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP,
-      PLATE_DURATION,
-       PLATE_COMMON };
+enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP, PLATE_CLAMP,
+       PLATE_DURATION, PLATE_COMMON };
 
 #define PLATE_PARAMS(n_, acceleration_, speed_, duration_)                                                             \
     {"length", "cm", "length of the plate", 3, 0.1, 1e4, SCENE_NUMBER},                                                \
@@ -19,6 +18,8 @@ enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCE
     {"acceleration", "c0^2/cm", "of either end, outwards", acceleration_, 0, 1, SCENE_NUMBER},                         \
     {"speed", "c0", "of either end, outwards", speed_, 0, 0.1, SCENE_NUMBER},                                          \
     {"grip", "-", "what is held along x only or fully: x both", 0, 0, 1, SCENE_CHOICE},                                \
+    {"clamp", "-", "what is held: the ends, or one column on their face (solid_clamp): ends ideal", 0, 0, 1,           \
+     SCENE_CHOICE},                                                                                                    \
     {"duration", "cm/c0", "length of the run", duration_, 0, 1e6, SCENE_NUMBER}
 
 static inline double plate_spacing(const double *p) { return p[PLATE_HEIGHT] / p[PLATE_N]; }
@@ -72,6 +73,7 @@ static inline sph_status plate_add(sph_sim *sim, const double *p, const sph_soli
     sph_solid m = *material;
     const double lo[2] = {a, -0.5 * p[PLATE_HEIGHT]}, hi[2] = {b, 0.5 * p[PLATE_HEIGHT]};
     if (side) {
+        m = p[PLATE_CLAMP] != 0 ? solid_clamp(&m, 1) : m;
         m.held = p[PLATE_GRIP] != 0 ? 3 : 1;
         m.motion = side < 0 ? plate_motion_left : plate_motion;
         m.motion_ctx = (void *)(uintptr_t)p;

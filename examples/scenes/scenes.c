@@ -16,6 +16,8 @@
     X(channel)                                                                                              \
     X(elliptical_drop)                                                                                      \
     X(plate)                                                                                                \
+    X(beam)                                                                                                 \
+    X(csm3)                                                                                                 \
     X(pulse)                                                                                                \
     X(lattice_box)                                                                                          \
     X(rings)                                                                                                \

@@ -52,6 +52,26 @@ static inline sph_solid solid_material(const double *p)
     return m;
 }
 
+/* What holds a body at a flat face. Held centres that stand half a spacing behind the face let a displacement vanish
+   there and not on it, which costs the first order of the spacing. An ideal clamp is one row of held particles whose
+   centres stand on the face: half of each lies in the body, so its stress counts by half (shear modulus, yield stress,
+   hardening and c0^2 are halved), its mass and its weight in sums stay. c0: of the body. Flaws do not break it (they
+   are strains of a material; a clamp is given none). */
+static inline sph_solid solid_clamp(const sph_solid *body, double c0)
+{
+    sph_solid m = *body;
+    m.shear *= 0.5;
+    m.yield *= 0.5;
+    m.hardening *= 0.5;
+    m.sound_speed = c0 * __builtin_sqrt(0.5);
+    return m;
+}
+/* how far the kernel reaches, in spacings */
+static inline double solid_support(const double *p)
+{
+    return sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H];
+}
+
 /* The smallest distance between two particles in spacings, 10 without pairs nearer than that: where it falls well below
    1, particles clump. Particles come in slabs along the last axis, no thicker than twice what c says of its cells, so
    that a particle further up than that ends the search. */

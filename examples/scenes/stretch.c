@@ -150,10 +150,13 @@ static sph_status add_bent(sph_sim *sim, uint32_t set, const stretch *b, const d
 
 sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const sph_solid *rock, const sph_flaws *flaws)
 {
-    const double grip = p[STRETCH_GRIP] * b->dx;
-    const double right[2] = {b->hi[0] - grip, b->lo[1]}, left[2] = {b->lo[0] + grip, b->hi[1]};
+    const bool ideal = p[STRETCH_CLAMP] != 0;
+    /* ideal: the middle of the held column is the end; of a half block half a spacing inside, for the lattice's sake */
+    const double out = !ideal || b->half ? 0 : 0.5 * b->dx, grip = ideal ? b->dx : p[STRETCH_GRIP] * b->dx;
+    const double right[2] = {b->hi[0] + out - grip, b->lo[1]}, left[2] = {b->lo[0] - out + grip, b->hi[1]};
+    const double from[2] = {b->lo[0] - out, b->lo[1]}, to[2] = {b->hi[0] + out, b->hi[1]};
     sph_shape s = {.hole = &b->hole, .holes = b->has_hole};
-    sph_solid end = *rock;
+    sph_solid end = ideal ? solid_clamp(rock, 1) : *rock;
     uint32_t set;
     sph_status st;
     memcpy(s.lo, b->lo, sizeof s.lo);
@@ -166,12 +169,11 @@ sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const 
     if ((st = sph_add_solid(sim, rock, &set, NULL)) != SPH_OK ||
         (st = b->bent ? add_bent(sim, set, b, s.hi) : sph_add_shape(sim, set, &s)) != SPH_OK ||
         (flaws && (st = sph_add_flaws(sim, set, flaws)) != SPH_OK) ||
-        (st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK || (st = sph_add_box(sim, set, right, b->hi,
-            NULL)) != SPH_OK)
+        (st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK || (st = sph_add_box(sim, set, right, to, NULL)) != SPH_OK)
         return st;
     end.motion = to_left;
     if (!b->half && ((st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK ||
-                     (st = sph_add_box(sim, set, b->lo, left, NULL)) != SPH_OK))
+                     (st = sph_add_box(sim, set, from, left, NULL)) != SPH_OK))
         return st;
     if (!b->has_gas)
         return SPH_OK;

@@ -9,14 +9,17 @@
 #if SPH_DIM == 2
 
 /* parameters that these scenes take after those of all solids */
-enum { STRETCH_SPEED = SOLID_COMMON, STRETCH_RAMP, STRETCH_PULL, STRETCH_GRIP, STRETCH_SLOW, STRETCH_COMMON };
+enum { STRETCH_SPEED = SOLID_COMMON, STRETCH_RAMP, STRETCH_PULL, STRETCH_GRIP, STRETCH_SLOW, STRETCH_CLAMP,
+       STRETCH_COMMON };
 #define STRETCH_PARAMS(speed_, ramp_, pull_)                                                                           \
     {"speed", "c0", "velocity of each end (Gray's V_f)", speed_, 0, 0.1, SCENE_NUMBER},                                \
     {"ramp", "cm/c0", "how long the ends take to come to speed, and to rest again", ramp_, 0, 1e6, SCENE_NUMBER},      \
     {"pull", "cm/c0", "when the ends are at rest again, at least twice the ramp; 0: never", pull_, 0, 1e6,             \
      SCENE_NUMBER},                                                                                                    \
     {"grip", "dx", "columns of particles held along x at each end", 2, 1, 20, SCENE_WHOLE},                            \
-    {"slow", "-", "the ends go as far, but slower by this factor", 1, 0.01, 1000, SCENE_NUMBER}
+    {"slow", "-", "the ends go as far, but slower by this factor", 1, 0.01, 1000, SCENE_NUMBER},                       \
+    {"clamp", "-", "what is held: the last columns, or one on the end's face (solid_clamp): columns ideal", 0, 0, 1,   \
+     SCENE_CHOICE}
 
 /* and those that break, after these */
 enum { BREAK_DAMAGE = STRETCH_COMMON, BREAK_K, BREAK_M, BREAK_CRACK, BREAK_RADIUS, BREAK_SEED, BREAK_COMMON };

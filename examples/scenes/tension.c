@@ -21,7 +21,8 @@ static void configure(const double *p, sph_config *c)
 static sph_status build(sph_sim *sim, const double *p)
 {
     const sph_solid m = solid_material(p);
-    const double half = 0.5 * p[PLATE_LENGTH], inside = half - plate_end(p);
+    const double off = p[PLATE_CLAMP] != 0 ? 0.5 * plate_spacing(p) : 0, face = 0.5 * p[PLATE_LENGTH] - plate_end(p);
+    const double inside = face - off, half = off > 0 ? face + off : 0.5 * p[PLATE_LENGTH];
     uint32_t set;
     sph_status st;
     if ((st = plate_add(sim, p, &m, -inside, inside, 0, &set)) != SPH_OK ||

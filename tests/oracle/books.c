@@ -11,7 +11,7 @@
 static void solid_totals(const o_scene *s, const o_particle *p, o_totals *o)
 {
     const o_set *set = &s->set[p->set];
-    const double volume = set->mass / set->rho0, damage = pow(p->root, SPH_DIM);
+    const double volume = o_phi(p) * set->mass / set->rho0, damage = pow(p->root, SPH_DIM);
     double square = 0;
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
@@ -36,14 +36,14 @@ double o_diffused_per_rate(const o_scene *s, const o_particle *p)
 {
     (void)s;
     const double acts = p->p < 0 ? (1 - pow(p->root, SPH_DIM)) * p->p : p->p;
-    return -acts / (p->rho * p->rho);
+    return -o_phi(p) * acts / (p->rho * p->rho);
 }
 
 /* how fast the energy of a particle rises */
 static void rise_of(const o_scene *s, const o_particle *p, o_sum *o)
 {
     const o_set *set = &s->set[p->set];
-    const double m = set->mass, per = -o_diffused_per_rate(s, p), whole = 1 - pow(p->root, SPH_DIM);
+    const double m = set->mass, per = -o_diffused_per_rate(s, p), whole = o_phi(p) * (1 - pow(p->root, SPH_DIM));
     for (int k = 0; k < SPH_DIM; k++) {
         const double g = s->cfg.gravity[k], drift = s->cfg.xsph > 0 ? p->drift[k].v : 0;
         o_add(o, m * p->a[k].v * p->v[k], m * p->a[k].s * fabs(p->v[k]));
@@ -82,6 +82,7 @@ o_totals o_find_totals(const o_scene *s)
         double stored = o_energy(set->eos, set->rho0, set->c0, p->d, s->cfg.pressure_floor && !o_is_solid(s, p));
         if (o_is_solid(s, p) && p->d < 0)
             stored *= 1 - pow(p->root, SPH_DIM);
+        stored *= o_phi(p);
         o_add(&o.internal, m * stored, m * set->c0 * set->c0 * (fabs(p->d) + fabs(stored) / (set->c0 * set->c0)));
         if (o_is_solid(s, p))
             solid_totals(s, p, &o);

@@ -61,6 +61,8 @@ static void compare_solid(const o_scene *s, const o_particle *p, const seen *k)
         check("stress", p->id, (uint32_t)c, k->dev[c], exact(kept((const double(*)[3])p->dev, c)), 0);
         check("stress rate", p->id, (uint32_t)c, k->dev_rate[c], kept_sum((const o_sum(*)[3])p->stress_rate, c), 0);
     }
+    if (s->cfg.face_quadrature)
+        check("quadrature", p->id, 0, k->phi, p->phi, 0);
     check("plastic strain", p->id, 0, k->plastic, exact(p->plastic), modulus > 0 ? set->yield / modulus : 0);
 }
 

@@ -93,6 +93,7 @@ void o_forces(o_scene *s)
     o_refresh(s);
     o_adami(s);
     o_correct(s);
+    o_weigh(s);
     if (o_has_solids(s))
         o_stresses(s);
     for (uint32_t a = 0; a < s->n; a++)

@@ -160,6 +160,7 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
     o->crack = m->crack_rate;
     o->body = m->body;
     o->held = m->held;
+    o->flat = m->flat;
 }
 
 /* the kept components as a full deviator, whose trace is 0 */
@@ -207,6 +208,7 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
         o->d = (double)b->rho[0][i];
         o->plastic = b->plastic[0] ? (double)b->plastic[0][i] : 0;
         o->root = b->damage[0] && set->role == SPH_ROLE_SOLID ? (double)b->damage[0][i] : 0;
+        o->phi.v = o->phi.s = b->quadrature[0] ? (double)b->quadrature[0][i] : 0;
         for (int k = 0; k < SPH_DIM; k++) {
             o->x[k] = s->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
             o->home[k] = o->x[k] - set->moved[k];
@@ -237,6 +239,7 @@ uint32_t look_results(const sph_sim *sim, seen *to, uint32_t room)
         o->rate = (double)b->drho[0][i];
         o->plastic = b->plastic[0] ? (double)b->plastic[0][i] : 0;
         o->root = b->damage[0] ? (double)b->damage[0][i] : 0;
+        o->phi = b->quadrature[0] ? (double)b->quadrature[0][i] : 0;
         for (int k = 0; k < SPH_DIM; k++) {
             o->x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
             o->v[k] = (double)b->vel[k][i];

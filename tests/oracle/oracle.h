@@ -44,6 +44,7 @@ typedef struct o_set {
     double once[3], twice[3], push[3];        /* m/s, its velocity filtered; m/s^2, the acceleration of Adami's walls */
     double shear, yield, hardening, crack;    /* Pa, Pa, Pa, 1/s */
     uint32_t body, held;
+    bool flat;
 } o_set;
 
 typedef struct o_particle {
@@ -69,6 +70,8 @@ typedef struct o_particle {
     double t[3][3];            /* T of a stress (solids) or p N/rho (Bonet & Lok) */
     double t_scale;
     double pull[3][3];         /* artificial stress R */
+    double cover;              /* Q of the quadrature weights */
+    o_sum phi;                 /* the weight; 0: 1 */
     double way[3];             /* how its place moves: v + xsph, m/s */
     double beside[3];          /* xsph alone */
     /* results */
@@ -116,6 +119,7 @@ static inline bool o_is_weak(const o_scene *s)
     return s->cfg.scheme == SPH_WEAK || s->cfg.scheme == SPH_DIRECT || s->cfg.scheme == SPH_WEAK_WICK;
 }
 static inline bool o_has_solids(const o_scene *s) { return s->cfg.solid != SPH_NO_SOLID; }
+static inline double o_phi(const o_particle *p) { return p->phi.v > 0 ? p->phi.v : 1; }
 static inline double o_dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static inline double o_max(double a, double b) { return a > b ? a : b; }
 static inline double o_min(double a, double b) { return a < b ? a : b; }
@@ -162,6 +166,7 @@ void o_drift(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
 void o_correct(o_scene *s);                    /* gradient.c: M, N, B and their inverses */
 void o_gradient_vector(const o_scene *s, const o_particle *i, const o_particle *j, const o_pair *p, double *k,
                        double *scale);         /* RENORMALISED: B_ij x_ij, else x_ij */
+void o_weigh(o_scene *s);                      /* quadrature.c: phi */
 void o_continuity(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);  /* fluid.c */
 void o_pressure_force(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
 void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p); /* viscosity.c */

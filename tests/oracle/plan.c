@@ -347,6 +347,9 @@ void plan_draw(plan *p, uint64_t seed)
     p->cfg.shifting = p->cfg.solid == SPH_NO_SOLID && !p->still_step && chance(0.4) ? range(0.1, 4) : 0;
     if (p->cfg.shifting > 0 && !SPH_DOUBLE) /* it pushes hard, and its bounds switch: rounding errors of floats grow */
         p->steps = (uint32_t)o_min(p->steps, 5);
+    p->cfg.face_quadrature = SPH_DIM > 1 && p->cfg.solid >= SPH_CORRECTED && chance(0.5);
+    for (uint32_t k = 0; k < p->solids; k++)
+        p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
 }
 
 void plan_print(const plan *p)
@@ -371,7 +374,7 @@ void plan_print(const plan *p)
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,
-           c->stress_epsilon, c->xsph_strain ? " xsph_strain" : "", c->shepard_every, c->books, c->body_force != NULL);
+           c->stress_epsilon, c->xsph_strain ? " xsph_strain" : c->face_quadrature ? " face_quadrature" : "", c->shepard_every, c->books, c->body_force != NULL);
     for (int k = 0; k < SPH_DIM; k++)
         printf("  axis %d: %.17g .. %.17g, %s / %s, gravity %g\n", k, c->lo[k], c->hi[k], word[0][c->face[k][0]],
                word[0][c->face[k][1]], c->gravity[k]);

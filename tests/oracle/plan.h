@@ -56,7 +56,7 @@ void plan_print(const plan *p);
 typedef struct seen {
     bool there;
     double x[3], v[3], a[3], d, rate, drift[3];
-    double dev[5], dev_rate[5], plastic, root;
+    double dev[5], dev_rate[5], plastic, root, phi;
     double disorder[4]; /* of shifting: minus the slope, then what the cover is above 1 */
     double power[8]; /* W/kg, in the order of the books */
 } seen;

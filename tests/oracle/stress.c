@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* stress.c: solids, and fluids beside them (sph.h, SPH_UPDATED ...). With T = -sigma/rho^2 (corrected gradients: -sigma
-   M^-T/rho; weak scheme: the same without rho, and the pair divides by rho_i rho_j):
+   M^-T/rho; weak scheme: the same without rho, and the pair divides by rho_i rho_j), times phi (quadrature.c):
      force      dv_i = -sum m_j (T_i + T_j + (R_i + R_j) (W/W(dx))^n) K g                   (Gray 2001 eqs 5.9, 5.21)
      gradient   L = (-sum m_j v_ij (x) K g) M^-1, plain: 1/rho_i for M^-1
      rates      drho = -rho tr L,  dS = 2 mu (e - tr e/3) + W S - S W,  e, W: halves of L +- L^T     (Gray 5.7-5.9)
@@ -31,7 +31,9 @@ static void make_t(o_scene *s, o_particle *p)
                 for (int m = 0; m < SPH_DIM; m++)
                     p->t[k][l] -= p->sigma[k][m] * p->inverse[l][m] * back;
             }
+            p->t[k][l] *= o_phi(p);
         }
+    p->t_scale *= o_max(1, p->phi.s);
 }
 
 static void make_pull(o_scene *s, o_particle *p)
