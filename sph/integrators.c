@@ -221,7 +221,7 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 #define FORCES                                                                                                     \
     MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami), MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami_copy),                 \
         MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),        \
-        MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
+        MODULE(SPH_WITH_SHEAR, sph_pass_shear), MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
 
 /* what a step ends with */
 #define END(pass) &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge)
