@@ -262,6 +262,9 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
       .diffusion = SPH_HYDROSTATIC, .books = 1)                                                                    \
     X(c_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                    \
       .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1)
+#define SPH_FAST_SHEAR(X)                                                                                          \
+    X(e, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .shear = 1)                                       \
+    X(e_w, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .shear = 1, .wall = 1)
 #define SPH_FAST_SOLIDS(X)                                                                                         \
     X(s_cubic, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1)                                       \
     X(s_cubic_r, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1, .repulsion = 4)                     \
@@ -298,6 +301,16 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
       .diffusion = SPH_HYDROSTATIC, .books = 1, .part = SPH_PART_FORCES)                                           \
     X(f_c_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
       .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1, .part = SPH_PART_FORCES)
+#define SPH_FAST_SHEAR_PARTS(X)                                                                                    \
+    X(f_e_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1,    \
+      .shear = 1, .part = SPH_PART_FORCES)                                                                         \
+    X(f_e_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1,   \
+      .shear = 1, .wall = 1, .part = SPH_PART_FORCES)
+#define SPH_FAST_SHEAR_CORRECTED(X)                                                                                \
+    X(f_ce_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .shear = 1, .part = SPH_PART_FORCES)                               \
+    X(f_ce_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                 \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .shear = 1, .wall = 1, .part = SPH_PART_FORCES)
 #define SPH_FAST_SOLID_PARTS(X)                                                                                    \
     X(r_s_cubic, .kernel = SPH_CUBIC, .solid = 1, .part = SPH_PART_RATES)                                          \
     X(r_s_w2, .kernel = SPH_WENDLAND_C2, .solid = 1, .part = SPH_PART_RATES)                                       \
@@ -327,6 +340,15 @@ SPH_FAST_FORCES(SPH_FAST_FN)
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_BONET_LOK
 SPH_FAST_CORRECTED(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR
+SPH_FAST_SHEAR(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST
+SPH_FAST_SHEAR_PARTS(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST && SPH_WITH_BONET_LOK
+SPH_FAST_SHEAR_CORRECTED(SPH_FAST_FN)
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_SOLID
 SPH_FAST_SOLIDS(SPH_FAST_FN)
@@ -361,6 +383,15 @@ static const struct {
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_WITH_SOLID
     SPH_FAST_SOLID_PARTS(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR
+    SPH_FAST_SHEAR(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST
+    SPH_FAST_SHEAR_PARTS(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST && SPH_WITH_BONET_LOK
+    SPH_FAST_SHEAR_CORRECTED(SPH_FAST_ROW)
 #endif
     {{0}, NULL}};
 
@@ -408,7 +439,7 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .loses = books && sim->fac.loses,
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0),
                         .part = (uint8_t)part,
-                        .shear = (uint8_t)(SPH_WITH_SHEAR && forces ? c->shear : SPH_NO_SHEAR)};
+                        .shear = forces && sph_shears(c)};
 }
 
 /* what the tiles of bodies must be of one kind for (sph_sweep.apart) */

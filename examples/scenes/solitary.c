@@ -191,6 +191,18 @@ static const char *const column[] = {
 /* a column's height from its mass, over the bed (m) */
 static double risen(const double *p, double mass) { return mass / pressed(p, mass / p[DEPTH] - 1); }
 
+/* Surface at a wall (m above still water): even about the wall, so from those one and two supports off it, where the
+   gauge sees water on both sides. The mass near a wall would not do: water may stand nearer to it than its spacing. */
+static double wall_surface(const sph_sim *sim, const double *p, double wall, double inward)
+{
+    const double off = inward * sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * spacing(p);
+    const double near[2] = {wall + off, 0}, far[2] = {wall + 2 * off, 0};
+    double a = 0, b = 0;
+    sph_surface(sim, near, 1, &a);
+    sph_surface(sim, far, 1, &b);
+    return (4 * a - b) / 3 - p[DEPTH];
+}
+
 static void history(const sph_sim *sim, const double *p, double *row)
 {
     double lo[2], hi[2], high = 0;
@@ -203,8 +215,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     sph_surface(sim, bed, 1, &high);
     const double values[] = {sph_time(sim), c.x, p[AT] * p[DEPTH] + speed * sph_time(sim),
                              risen(p, c.height) - p[DEPTH], high - p[DEPTH], c.speed, speed,
-                             risen(p, track_height(sim, &t, lo[0])) - p[DEPTH],
-                             risen(p, track_height(sim, &t, hi[0])) - p[DEPTH],
+                             wall_surface(sim, p, lo[0], 1), wall_surface(sim, p, hi[0], -1),
                              o.kinetic, o.potential, o.internal, o.dissipated, o.diffused, o.balance};
     for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
         row[i] = values[i];

@@ -92,12 +92,4 @@ track_crest track_highest(const sph_sim *sim, const track_tank *tank)
     return (track_crest){c.from + (top + share * m) * c.step, o - 0.25 * (l - r) * share,
                          squares > 0 ? product / squares : 0};
 }
-
-double track_height(const sph_sim *sim, const track_tank *tank, double x)
-{
-    double h[3];
-    const columns c = {x - 3 * tank->dx, 3 * tank->dx, 3 * tank->dx, 3, h, NULL};
-    gather(sim, tank, &c);
-    return sharpened(&c, 1);
-}
 #endif

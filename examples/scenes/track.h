@@ -22,8 +22,4 @@ typedef struct track_crest {
 #define track_highest SPH_NAME(track_highest)
 track_crest track_highest(const sph_sim *sim, const track_tank *tank);
 
-/* Column height at one place (m). */
-#define track_height SPH_NAME(track_height)
-double track_height(const sph_sim *sim, const track_tank *tank, double x);
-
 #endif
