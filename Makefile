@@ -214,8 +214,10 @@ builds_test_scenes  := $(BUILDS)
 builds_test_shapes  := $(BUILDS)
 builds_test_contact := $(BUILDS)
 builds_test_gradient := $(BUILDS)
+builds_test_shear   := $(BUILDS)
 # of commands of the tool, linked with those that need no scene: one build
-TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile test_advise test_atlas
+TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile test_advise test_atlas \
+	test_waves
 $(foreach t,$(TOOL_TESTS),$(eval builds_$(t) := 2d))
 builds_test_solid   := $(BUILDS)
 builds_test_solid_forces := $(BUILDS)
@@ -241,7 +243,7 @@ atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_ten
 atlas_libs := $(BUILD)/libsph1d.a $(BUILD)/libsph2f.a
 test_bins := $(foreach t,$(TESTS),$(foreach b,$(filter $(TEST_BUILDS),$(call builds_of,$(t))),$(BUILD)/tests/$(t)_$(b)))
 
-command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o),$(tools_obj)) $(tables_obj)
+command_obj := $(filter-out $(addprefix $(BUILD)/obj/tools/,main.o builds.o cmd_run.o run_files.o run_restore.o cmd_list.o gauges.o),$(tools_obj)) $(tables_obj)
 of_tool = $(if $(filter $(1),$(TOOL_TESTS)),$(2))
 
 # the oracle (tests/oracle): linked into its test, and a program for each build

@@ -21,6 +21,7 @@
     ONE(tmp, sph_real, SPH_ROOM(c), sph_filters(c) || sph_sums_density(c), "filtered density")                        \
     MANY(corr, sph_real, SPH_NL, SPH_ROOM(c), sph_corrects(c), "gradient correction") /* M^-1, destination buffer */  \
     MANY(gradient, sph_real, SPH_NT, SPH_ROOM(c), sph_corrects_fluids(c), "gradient correction of fluids")            \
+    MANY(shear, sph_real, SPH_NL + 1, SPH_ROOM(c), sph_shears(c), "viscous stress of fluids")                         \
     /* by id: a particle's flaws are flaw[flaw_start[id] .. flaw_start[id + 1]) */                                    \
     ONE(flaw_start, uint32_t, (size_t)c->max_particles + 1, sph_damages(c), "flaws of a particle")                    \
     ONE(flaw, float, c->max_flaws, sph_damages(c), "flaws") /* thresholds */                                          \

@@ -40,6 +40,10 @@ static sph_status check_fluids(const sph_config *c, sph_report *r)
 {
     if (SPH_IS(c->viscosity, MORRIS) && !(c->nu > 0))
         return sph_refuse(r, "nu", ">= 0, and > 0 for SPH_MORRIS", c->nu);
+    if (sph_shears(c) && (sph_has_solids(c) || SPH_IS(c->viscosity, MORRIS)))
+        return sph_refuse(r, "shear", "SPH_NO_SHEAR with solids or SPH_MORRIS", c->shear);
+    if (SPH_IS(c->shear, NESTED) && !(c->nu > 0))
+        return sph_refuse(r, "nu", ">= 0, and > 0 for SPH_NESTED", c->nu);
     if (SPH_IS(c->density, SUMMATION) && (c->diffusion || c->shepard_every))
         return sph_refuse(r, "density", "SPH_CONTINUITY when diffusion or the Shepard filter is on", c->density);
     if (!sph_corrects_fluids(c))

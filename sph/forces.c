@@ -5,7 +5,8 @@
      continuity.h   rate of density             viscosity.h    artificial, Morris            diffusion.h    of density
      pressure.h     force of the pressure       stress.h       force of the stress, and the velocity gradient
      gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
-     xsph.h         drift beside the velocity   pair_power.h   the books                     shift_sums.h   disorder
+     shear.h        viscous stress              xsph.h         drift beside the velocity   pair_power.h   the books
+     shift_sums.h   disorder
 
    Kick-drift-kick and leap-frog sum rates and forces in sweeps of their own (choice `part`): with the same bits as both
    at once, of which each would use a half.
@@ -20,6 +21,7 @@
 #include "pair_power.h"
 #include "pressure.h"
 #include "reference.h"
+#include "shear.h"
 #include "shift_sums.h"
 #include "stress.h"
 #include "viscosity.h"
@@ -38,9 +40,10 @@ typedef struct at_home {
     const sph_mirror_tile *mirror;
     const sph_stress_tile *stress;
     const sph_reference_tile *reference;
-    const sph_real *smoothed, *corrected;
+    const sph_real *smoothed, *corrected, *sheared;
     const sph_home *home;
     const sph_gradient_home *gradient;
+    const sph_shear_home *shear;
     const sph_stress_home *solid;
     const sph_reference_home *was;
 } at_home;
@@ -123,6 +126,7 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     sph_viscosity(c, o->f, o->home, o->mirror, &p, s);
     if (sph_takes_forces(c))
         momentum(c, &p, s);
+    sph_shear_force(c, o->home, o->mirror, o->shear, o->sheared, &p, s);
     sph_diffusion(c, o->f, o->home, &p, s);
     sph_xsph(c, o->home, &p, s);
     sph_pair_power(c, o->home, &p, s);
@@ -165,6 +169,12 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
     if (SPH_HAS_FLUID_GRADIENT && c->gradient) {
         o.corrected = sph_columns_of(sim, t, SPH_COLUMN_gradient);
         gradient = sph_spread_gradient(c, sim, t, h);
+    }
+    sph_shear_home shear;
+    if (SPH_WITH_SHEAR && c->shear) {
+        o.sheared = sph_columns_of(sim, t, SPH_COLUMN_shear);
+        shear = sph_spread_shear(sim, t, h);
+        o.shear = &shear;
     }
     sph_stress_home solid;
     if (SPH_WITH_SOLID) /* a place, whether the scene has it or not */
@@ -257,6 +267,9 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
       .diffusion = SPH_HYDROSTATIC, .books = 1)                                                                    \
     X(c_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                    \
       .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1)
+#define SPH_FAST_SHEAR(X)                                                                                          \
+    X(e, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .shear = 1)                                       \
+    X(e_w, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .shear = 1, .wall = 1)
 #define SPH_FAST_SOLIDS(X)                                                                                         \
     X(s_cubic, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1)                                       \
     X(s_cubic_r, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1, .repulsion = 4)                     \
@@ -303,6 +316,16 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
       .diffusion = SPH_HYDROSTATIC, .books = 1, .part = SPH_PART_FORCES)                                           \
     X(f_c_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
       .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1, .part = SPH_PART_FORCES)
+#define SPH_FAST_SHEAR_PARTS(X)                                                                                    \
+    X(f_e_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1,    \
+      .shear = 1, .part = SPH_PART_FORCES)                                                                         \
+    X(f_e_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_HYDROSTATIC, .books = 1,   \
+      .shear = 1, .wall = 1, .part = SPH_PART_FORCES)
+#define SPH_FAST_SHEAR_CORRECTED(X)                                                                                \
+    X(f_ce_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .shear = 1, .part = SPH_PART_FORCES)                               \
+    X(f_ce_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                 \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .shear = 1, .wall = 1, .part = SPH_PART_FORCES)
 #define SPH_FAST_SOLID_PARTS(X)                                                                                    \
     X(r_s_cubic, .kernel = SPH_CUBIC, .solid = 1, .part = SPH_PART_RATES)                                          \
     X(r_s_w2, .kernel = SPH_WENDLAND_C2, .solid = 1, .part = SPH_PART_RATES)                                       \
@@ -335,6 +358,15 @@ SPH_FAST_SHIFTING(SPH_FAST_FN)
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_BONET_LOK
 SPH_FAST_CORRECTED(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR
+SPH_FAST_SHEAR(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST
+SPH_FAST_SHEAR_PARTS(SPH_FAST_FN)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST && SPH_WITH_BONET_LOK
+SPH_FAST_SHEAR_CORRECTED(SPH_FAST_FN)
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_SOLID
 SPH_FAST_SOLIDS(SPH_FAST_FN)
@@ -372,6 +404,15 @@ static const struct {
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_WITH_SOLID
     SPH_FAST_SOLID_PARTS(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR
+    SPH_FAST_SHEAR(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST
+    SPH_FAST_SHEAR_PARTS(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST && SPH_WITH_BONET_LOK
+    SPH_FAST_SHEAR_CORRECTED(SPH_FAST_ROW)
 #endif
     {{0}, NULL}};
 
@@ -419,7 +460,8 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .loses = books && sim->fac.loses,
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0),
                         .part = (uint8_t)part,
-                        .shifting = forces && sph_shifts(c)};
+                         .shifting = forces && sph_shifts(c),
+                         .shear = forces && sph_shears(c)};
 }
 
 /* what the tiles of bodies must be of one kind for (sph_sweep.apart) */
@@ -675,7 +717,8 @@ static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static uint32_t columns_of(const sph_choice *c)
 {
     const bool forces = sph_takes_forces(c), gradient = c->gradient && (forces || !SPH_IS(c->gradient, BONET_LOK));
-    return (SPH_HAS_LAYERED_WALLS && sph_viscous(c->viscosity) ? 1u << SPH_COLUMN_mirror : 0) |
+    return (SPH_HAS_LAYERED_WALLS && (sph_viscous(c->viscosity) || c->shear) ? 1u << SPH_COLUMN_mirror : 0) |
+           (c->shear ? 1u << SPH_COLUMN_shear : 0) |
            (c->solid && forces ? 1u << SPH_COLUMN_stress : 0) | (c->total ? 1u << SPH_COLUMN_reference : 0) |
            (c->hat ? 1u << SPH_COLUMN_smoothed : 0) | (gradient ? 1u << SPH_COLUMN_gradient : 0);
 }

@@ -244,7 +244,7 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 #define FORCES                                                                                                     \
     MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami), MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami_copy),                 \
         MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),        \
-        MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
+        MODULE(SPH_WITH_SHEAR, sph_pass_shear), MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
 
 /* A density that is summed is of where particles are: Runge-Kutta, which moves them last, sums it once more. */
 #define SUMMED(pass) (SPH_WITH_SUMMATION ? (pass) : NULL)

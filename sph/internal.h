@@ -235,6 +235,9 @@ _Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 &
 #define SPH_YIELDS_IN (1 << SPH_NO_YIELD | SPH_HAS_YIELD << SPH_VON_MISES | SPH_HAS_YIELD << SPH_VON_MISES_GRAY)
 #define SPH_DAMAGES_IN                                                                                      \
     (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
+#define SPH_SHEARS_IN                                                                                       \
+    (1 << SPH_NO_SHEAR | SPH_WITH_NESTED << SPH_NESTED | SPH_WITH_SMAGORINSKY << SPH_SMAGORINSKY |          \
+     SPH_WITH_SMAGORINSKY_WICK << SPH_SMAGORINSKY_WICK)
 #define SPH_GRADIENTS_IN                                                                                    \
     (1 << SPH_PLAIN | SPH_WITH_BONET_LOK << SPH_BONET_LOK | SPH_WITH_RENORMALISED << SPH_RENORMALISED)
 #define SPH_REPULSIONS_IN                                                                                   \
@@ -275,6 +278,7 @@ SPH_INLINE bool sph_foresees(const sph_config *c)
 SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->solid == SPH_TOTAL; }
 SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
 SPH_INLINE bool sph_weighs_faces(const sph_config *c) { return SPH_HAS_QUADRATURE && c->face_quadrature; }
+SPH_INLINE bool sph_shears(const sph_config *c) { return SPH_WITH_SHEAR && c->shear != SPH_NO_SHEAR; }
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
 SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }

@@ -39,6 +39,7 @@
     X(HYDROSTATIC, 1)                                                                                      \
     X(BONET_LOK, 1) /* corrected gradients of fluids */                                                    \
     X(RENORMALISED, 1)                                                                                     \
+    X(SHEAR, 1) /* viscous stress of fluids: nested gradients, large eddies */                             \
     X(PREDICTOR_CORRECTOR, 1) /* integrators */                                                            \
     X(KICK_DRIFT_KICK, 1)                                                                                  \
     X(LEAP_FROG, 1)                                                                                        \
@@ -90,6 +91,9 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_HAS_MIRRORS (SPH_WITH_SYMMETRY || SPH_WITH_MIRROR_NO_SLIP)
 #define SPH_HAS_IMAGES (SPH_WITH_PERIODIC || SPH_HAS_MIRRORS)
 #define SPH_HAS_FLUID_GRADIENT (SPH_WITH_BONET_LOK || SPH_WITH_RENORMALISED)
+#define SPH_WITH_NESTED SPH_WITH_SHEAR
+#define SPH_WITH_SMAGORINSKY SPH_WITH_SHEAR
+#define SPH_WITH_SMAGORINSKY_WICK SPH_WITH_SHEAR
 #define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
 /* sums that depend on whom they meet: another material, or an image of what is heavier below */
 #define SPH_HAS_APART (SPH_WITH_SEVERAL_FLUIDS || (SPH_WITH_HYDROSTATIC && SPH_HAS_MIRRORS))

@@ -20,12 +20,13 @@
 /* quadrature.c */
 #define sph_pass_cover SPH_NAME(pass_cover_)
 #define sph_pass_quadrature SPH_NAME(pass_quadrature_)
-/* correction.c, smoothing.c, gradient.c */
+/* correction.c, smoothing.c, gradient.c, shear.c */
 #define sph_pass_correction SPH_NAME(pass_correction_)
 #define sph_pass_smooth SPH_NAME(pass_smooth_)
 #define sph_pass_gradient SPH_NAME(pass_gradient_)
+#define sph_pass_shear SPH_NAME(pass_shear_)
 extern const sph_pass sph_pass_count, sph_pass_scatter, sph_pass_force, sph_pass_summation, sph_pass_shepard,
     sph_pass_copy_density, sph_pass_adami, sph_pass_adami_copy, sph_pass_correction, sph_pass_smooth, sph_pass_gradient,
-    sph_pass_cover, sph_pass_quadrature;
+    sph_pass_cover, sph_pass_quadrature, sph_pass_shear;
 
 #endif

@@ -182,6 +182,14 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
    1)/2 reals a particle; where neighbours do not span space the plain gradient is taken (gradient.c). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
+/* Viscous stress of fluids (scenes without solids), beside or instead of a viscosity above (not MORRIS, which takes the
+   same nu). NESTED: tau = 2 rho nu (S - tr S/3) of the gradient of the velocity (Wickramarachchi 2009 eqs 5.4-5.12, in
+   a form that keeps momentum and energy). SMAGORINSKY: large eddies, nu + (smagorinsky dx)^2 |S| for nu, and a pressure
+   2/3 subgrid rho dx^2 |S|^2 (his eqs 5.18, 5.19, 5.32, 5.33). SMAGORINSKY_WICK: nu + smagorinsky dx^2 |S|^2, as the
+   line after his 5.32 prints it. What they take is never negative but beside MIRROR_NO_SLIP. Costs a sweep and
+   SPH_DIM^2 + 1 reals a particle (SPH_USE_SHEAR). With corrected gradients exact where the velocity is linear. */
+enum { SPH_NO_SHEAR, SPH_NESTED, SPH_SMAGORINSKY, SPH_SMAGORINSKY_WICK, SPH_SHEARS };
+
 /* Integrators. All are of second order in time in every field, with walls and forces that change with time and steps
    that change. PREDICTOR_CORRECTOR: Gray 2001 eqs 2.26-2.28, one force evaluation a
    step; in fluids the predicted density foresees how its rate rises (kick.h): it stands a Courant number of 0.5.
@@ -303,6 +311,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_MIRRORS 512u /* symmetry or no-slip mirror faces */
 #define SPH_USE_SHIFTING 1024u
 #define SPH_USE_QUADRATURE 2048u /* face_quadrature */
+#define SPH_USE_SHEAR 4096u /* a viscous stress of fluids */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
@@ -318,6 +327,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_BOOKS) ? 7u * (SPH_DOUBLE ? 8u : 4u) : 0u) +                                           \
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
+     (((use)&SPH_USE_SHEAR) ? (SPH_DIM * SPH_DIM + 1u) * SPH_REAL_ : 0u) +                                  \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
      (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
@@ -330,9 +340,12 @@ size_t sph_arena_bytes(const sph_config *cfg);
       SPH_TENSOR_SUMS_ * 512u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SOLID_SCRATCH_BYTES /* with solids besides */                                                   \
     ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))
+#define SPH_SHEAR_SCRATCH_BYTES /* with a viscous stress besides */                                          \
+    ((SPH_DIM * SPH_DIM + 1u) * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 472u) * SPH_REAL_)
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
+     (((use)&SPH_USE_SHEAR) ? (size_t)(threads) * SPH_SHEAR_SCRATCH_BYTES : 0u) +                            \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
          (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING)) ? 64u : 0u))

@@ -40,7 +40,8 @@ static double viscosity_of(const sph_config *c, double sound)
 {
     if (SPH_IS(c->viscosity, MORRIS))
         return c->nu;
-    return sph_viscous(c->viscosity) ? c->alpha * sound * c->smoothing_length / (2 * (SPH_DIM + 2)) : 0;
+    const double nu = sph_shears(c) ? c->nu : 0;
+    return nu + (sph_viscous(c->viscosity) ? c->alpha * sound * c->smoothing_length / (2 * (SPH_DIM + 2)) : 0);
 }
 
 static double size_of_gravity(const sph_config *c)

@@ -22,6 +22,7 @@ typedef struct bits_case {
     uint32_t sponge;                      /* SPONGE_... */
     bool shifting;
     bool flat;                            /* weights beside flat faces: none in 1-D */
+    uint32_t shear;
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -133,6 +134,17 @@ static const bits_case bits_cases[] = {
      .solid = SPH_TOTAL, .integrator = SPH_KICK_DRIFT_KICK, .held = true, .books = true, .flat = true},
     {"quadrature_corrected", CASE_SOLID, .solid = SPH_CORRECTED, .face = SPH_SYMMETRY, .yield = SPH_VON_MISES,
      .flat = true},
+    {"nested", .kernel = SPH_WENDLAND_C2, .wall = SPH_WALL_ADAMI, .slip_less = true, .shear = SPH_NESTED,
+     .books = true},
+    {"nested_weak", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .scheme = SPH_WEAK,
+     .shear = SPH_NESTED, .slip_less = true, .compressible = true, .gradient = SPH_RENORMALISED, .books = true},
+    {"large_eddies", CASE_BASE, .shear = SPH_SMAGORINSKY, .integrator = SPH_KICK_DRIFT_KICK,
+     .gradient = SPH_BONET_LOK, .diffusion = SPH_HYDROSTATIC, .books = true},
+    {"large_eddies_symmetry", CASE_BASE, .shear = SPH_SMAGORINSKY, .face = SPH_SYMMETRY,
+     .integrator = SPH_RUNGE_KUTTA},
+    {"large_eddies_no_slip", CASE_BASE, .shear = SPH_SMAGORINSKY_WICK, .face = SPH_MIRROR_NO_SLIP, .books = true},
+    {"large_eddies_periodic", CASE_BASE, .shear = SPH_SMAGORINSKY, .face = SPH_PERIODIC,
+     .integrator = SPH_LEAP_FROG},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -185,6 +197,7 @@ static sph_config case_config(const bits_case *b)
     c.beta = 0.1;
     c.diffusion = b->diffusion;
     c.gradient = b->gradient;
+    c.shear = b->shear;
     c.integrator = b->integrator;
     c.xsph = b->xsph ? 0.5 : 0;
     c.shepard_every = b->shepard ? 3 : 0;

@@ -39,6 +39,7 @@ static UNUSED void scene_fluids(sph_config *c)
     c->eos = c->scheme > SPH_DIRECT ? SPH_ISOTHERMAL : scene_draw(SPH_EOSES);
     c->density = scene_one_in(4) ? SPH_SUMMATION : SPH_CONTINUITY;
     c->shifting = scene_one_in(3) ? scene_toss(0.2, 2) : 0;
+    c->shear = c->viscosity != SPH_MORRIS && scene_one_in(3) ? 1 + scene_draw(SPH_SHEARS - 1) : SPH_NO_SHEAR;
     if (c->density == SPH_CONTINUITY) {
         c->diffusion = scene_draw(SPH_DIFFUSIONS);
         c->shepard_every = scene_one_in(3) ? 2 : 0;

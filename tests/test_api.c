@@ -350,7 +350,7 @@ static void add_piece(void *ctx, const char *name, size_t bytes)
 static bool usable(uint32_t use)
 {
     const bool solid = use & SPH_USE_SOLID;
-    if (solid ? use & (SPH_USE_FILTER | SPH_USE_SHIFTING)
+    if (solid ? use & (SPH_USE_FILTER | SPH_USE_SHIFTING | SPH_USE_SHEAR)
               : use & (SPH_USE_CORRECTED | SPH_USE_TOTAL | SPH_USE_YIELD | SPH_USE_DAMAGE))
         return false;
     if (!(use & SPH_USE_CORRECTED) && use & (SPH_USE_TOTAL | SPH_USE_QUADRATURE))
@@ -364,7 +364,7 @@ static void the_constant_bound_holds_and_is_close(void **state)
     static const uint32_t particles[] = {1, 100, 5000, 200000};
     (void)state;
     for (uint32_t n = 0; n < 4; n++)
-        for (uint32_t bits = 0; bits < 4096; bits++)
+        for (uint32_t bits = 0; bits < 8192; bits++)
             for (uint32_t threads = 1; threads <= 8 && usable(bits); threads *= 8) {
                 const uint32_t flaws = bits & SPH_USE_DAMAGE ? 7 * particles[n] : 0;
                 sph_config c = base();
@@ -383,6 +383,7 @@ static void the_constant_bound_holds_and_is_close(void **state)
                 c.yield = bits & SPH_USE_YIELD ? SPH_VON_MISES : SPH_NO_YIELD;
                 c.damage = bits & SPH_USE_DAMAGE ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
                 c.max_flaws = flaws;
+                c.shear = bits & SPH_USE_SHEAR ? SPH_SMAGORINSKY : SPH_NO_SHEAR;
                 c.max_stretch = 1;
                 for (int k = 0; k < SPH_DIM; k++) {
                     c.hi[k] = c.lo[k] + DX * (10 + 3 * k + 20 * (int)n);

@@ -17,7 +17,7 @@
 
 /* what a scene is made of; 0: the plain thing */
 typedef struct scene {
-    uint32_t scheme, viscosity, diffusion, gradient, density, eos, face; /* face: of the last axis */
+    uint32_t scheme, viscosity, diffusion, gradient, density, eos, shear, face; /* face: of the last axis */
     uint32_t wall;            /* SPH_WALL_... + 1, 0: none */
     bool compressible, no_slip, floor_, xsph;
     uint32_t solid, repulsion; /* solid: a block beside another, or beside a fluid */
@@ -53,6 +53,9 @@ static sph_config config_of(const scene *s)
     c.nu = 0.05;
     c.diffusion = s->diffusion;
     c.gradient = s->gradient;
+    c.shear = s->shear;
+    c.smagorinsky = 1.5;
+    c.subgrid = 0.5;
     c.density = s->density;
     c.eos = s->eos;
     c.pressure_floor = s->floor_;
@@ -270,6 +273,7 @@ static bool choose_extra(scene *s, uint32_t e)
     s->xsph = e == 5;
     s->eos = e == 6 ? SPH_ISOTHERMAL : e == 7 ? SPH_LINEAR : SPH_TAIT;
     s->floor_ = e == 7 || e == 1;
+    s->shear = s->viscosity == SPH_MORRIS ? SPH_NO_SHEAR : e % SPH_SHEARS; /* each beside two of these */
     return s->gradient != SPH_BONET_LOK || s->scheme <= SPH_WEAK;
 }
 

@@ -130,6 +130,37 @@ def pictures_and_tables_on_a_full_disk_are_failures():
         refused(sph(*words, env=with_gnuplot()), name, "No space left on device")
 
 
+# ---- gauges ----
+
+def gauges_and_probes_are_columns_of_any_scene():
+    fine(dam("steps=1", "out=a", "dump=none", "gauge=0.02/0.04", "probe=0.02,0.01/0.04,0.03"))
+    lines = pathlib.Path("a.csv").read_text().splitlines()
+    names, first = lines[1].split(","), dict(zip(lines[1].split(","), map(float, lines[2].split(","))))
+    assert names[-14:-8] == [f"{w}_at_{x}_m" for x in ("0.02", "0.04") for w in ("surface", "top", "depth")], names
+    assert names[-8:-4] == [f"{w}_at_0.02;0.01_{u}" for w, u in (("pressure", "Pa"), ("vx", "m/s"), ("vy", "m/s"),
+                                                                 ("cover", "-"))], names
+    for name, value in (("surface_at_0.02_m", 0.0572), ("depth_at_0.02_m", 0.0572), ("cover_at_0.02;0.01_-", 1)):
+        assert abs(first[name] / value - 1) < 0.05, (name, first[name])
+    assert abs(first["top_at_0.04_m"] - first["surface_at_0.04_m"]) < 1e-6
+
+
+def gauges_go_on_with_a_history_that_has_them():
+    part = ("dump=full", "every=0.005", "out=a", "gauge=0.02")
+    fine(dam("end=0.01", *part))
+    refused(dam("end=0.02", "dump=full", "every=0.005", "out=a", "restore=a_0002.sph"), "other columns")
+    fine(dam("end=0.02", *part, "restore=a_0002.sph"))
+    assert len(rows("a.csv")) == 5
+
+
+def places_of_gauges_that_are_no_places_are_refused():
+    for words in (("gauge=a",), ("gauge=",), ("gauge=0.1,0.2",), ("gauge=0.1/",), ("probe=0.1",), ("probe=1,2,3",),
+                  ("gauge=" + "/".join("0.1" for _ in range(17)),),
+                  ("probe=" + "/".join("0.1,0.1" for _ in range(13)),), ("gauge=0.1", "gauge=0.2")):
+        refused(dam("steps=1", "out=a", *words), words[0].split("=")[0], code=2)
+    refused(sph("run", "hydrostatic", "gauge=1"), "one dimension", code=2)
+    assert not files()
+
+
 # ---- going on ----
 
 def state(name):

@@ -78,6 +78,51 @@ static sph_status step(build_sim *s, double t_end)
 static double end(const build_sim *s) { return s->scene->end(s->p); }
 static double time_of(const build_sim *s) { return sph_time(s->sim); }
 static void history(const build_sim *s, double *row) { s->scene->history(s->sim, s->p, row); }
+
+/* half a spacing below the lowest fluid within a spacing of the column above x; the domain's low end if there is none */
+static double bed_below(const build_sim *s, const double *x)
+{
+    const uint32_t up = SPH_DIM - 1;
+    double bed = s->cfg.lo[up];
+    bool any = false;
+    sph_particle q;
+    for (uint32_t i = 0; i < sph_count(s->sim); i++) {
+        if (sph_get(s->sim, i, &q) != SPH_OK || (q.role != SPH_ROLE_FLUID && q.role != SPH_ROLE_SOLID))
+            continue;
+        bool near = true;
+        for (uint32_t k = 0; k < up; k++)
+            near = near && SCENE_ABS(q.x[k] - x[k]) <= s->cfg.spacing;
+        if (near && (!any || q.x[up] - 0.5 * s->cfg.spacing < bed)) {
+            bed = q.x[up] - 0.5 * s->cfg.spacing;
+            any = true;
+        }
+    }
+    return bed;
+}
+
+static void gauge(const build_sim *s, const double *x, double *out)
+{
+    const uint32_t up = SPH_DIM - 1;
+    double at[SPH_DIM];
+    for (uint32_t k = 0; k < up; k++)
+        at[k] = x[k];
+    at[up] = bed_below(s, x);
+    out[0] = out[1] = out[2] = 0;
+    sph_surface(s->sim, at, up, &out[0]);
+    sph_gauge(s->sim, at, up, &out[1]);
+    sph_depth(s->sim, at, up, &out[2]);
+}
+
+static void probe(const build_sim *s, const double *x, double *out)
+{
+    sph_probe_value v = {0};
+    sph_probe(s->sim, x, &v);
+    out[0] = v.p;
+    for (int k = 0; k < SPH_DIM; k++)
+        out[1 + k] = v.v[k];
+    out[1 + SPH_DIM] = v.cover;
+}
+
 static void info(const build_sim *s, sph_step_info *out) { sph_get_step(s->sim, out); }
 static void usage(const build_sim *s, sph_usage *out) { sph_get_usage(s->sim, out); }
 static uint32_t count(const build_sim *s) { return sph_count(s->sim); }
@@ -130,6 +175,6 @@ static sph_status inspect(build_sim *s, void (*fn)(void *ctx, const sph_finding 
 
 #define build_table SPH_NAME(build_table)
 extern const build build_table;
-const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,  time_of, history, totals,
-                           info,    usage,      count,     hash,       last,      arena, dump, restore,
+const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,  time_of, history, gauge,
+                           probe,   totals,     info,      usage,      count,     hash,       last,      arena, dump, restore,
                            inspect};

@@ -43,6 +43,11 @@ typedef struct build {
     double (*end)(const build_sim *s);
     double (*time)(const build_sim *s);
     void (*history)(const build_sim *s, double *row);
+    /* Of the column above x (m, an axis less than the scene has): the connected surface from the lowest water up, the
+       highest water, the integral of cover (m). */
+    void (*gauge)(const build_sim *s, const double *x, double *out);
+    /* At x: pressure (Pa), velocity (m/s), cover. */
+    void (*probe)(const build_sim *s, const double *x, double *out);
     void (*totals)(const build_sim *s, build_totals *out);
     void (*info)(const build_sim *s, sph_step_info *out);
     void (*usage)(const build_sim *s, sph_usage *out);

@@ -24,6 +24,9 @@ static const char help[] =
     "  steps=N                 stop after so many steps\n"
     "  every=SECONDS           a row of history (and a dump) so often, or\n"
     "  frames=N                so many in all; 20 unless given\n"
+    "  gauge=X[/X...]          columns of the water above places of the bed (3-D: X,Y): its surface, the highest drop,\n"
+    "                          its depth as a volume\n"
+    "  probe=X,Y[/X,Y...]      columns of pressure and velocity at places\n"
     "  out=PREFIX              write PREFIX.csv and dumps PREFIX_0000.sph ...; without it the history goes to\n"
     "                          standard output and nothing is written\n"
     "  dump=full|picture|none  what dumps hold; picture (position, velocity, density, pressure) unless given\n"
@@ -47,7 +50,8 @@ static void interrupt(int signal)
 /* ---- arguments ---- */
 
 static const char *const option_names[] = {"precision", "threads", "end",     "steps",     "every", "frames",
-                                           "out",       "dump",    "restore", "stage_log", "cost", NULL};
+                                           "out",       "dump",    "restore", "stage_log", "cost",  "gauge",
+                                           "probe",     NULL};
 
 static int unknown_name(const run *r, const char *name)
 {
@@ -92,9 +96,10 @@ static int take_option(run *r, uint32_t option, const char *value)
         break;
     case 8: r->restore = value; break;
     case 9: r->stage_name = value; break;
-    default: r->cost = value; break;
+    case 10: r->cost = value; break;
+    default: fine = gauges_take(&r->extra, r->b, &r->scene, option_names[option], value); break;
     }
-    if ((option == 6 || option >= 8) && *value == '\0')
+    if ((option == 6 || (option >= 8 && option <= 10)) && *value == '\0')
         return host_usage("%s= needs the name of a file", option_names[option]);
     return fine ? HOST_FINE : HOST_USAGE;
 }

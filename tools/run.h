@@ -8,10 +8,11 @@
 
 #include "../port/posix.h"
 #include "build.h"
+#include "gauges.h"
 #include "output.h"
 
 enum { DUMP_KIND_FULL, DUMP_KIND_PICTURE, DUMP_KIND_NONE };
-enum { MOST_PARAMS = 128, MOST_COLUMNS = 64, FRAMES = 20 };
+enum { MOST_PARAMS = 128, FRAMES = 20 };
 #define MOST_FRAMES 1e9
 
 typedef struct run {
@@ -30,13 +31,14 @@ typedef struct run {
     double end, every;
     uint32_t dump;
     const char *prefix, *out, *restore, *stage_name, *cost;
+    gauges extra;
 
     /* files */
     output history, stage, costs; /* history: of no output where nobody reads it */
     char *history_name;
     char *before; /* the history that goes on, null if there is none */
     double before_time; /* of its last row */
-    uint32_t column[MOST_COLUMNS], columns; /* numbers of those that are written */
+    uint32_t column[MOST_COLUMNS], columns; /* numbers of those that are written; behind them stand those of extra */
     uint64_t frame;   /* of the last row: its time in units of every */
     uint64_t number;  /* the least number that the next dump may have */
 

@@ -100,6 +100,10 @@ static bool write_row(run *r)
     r->b->history(r->sim, row);
     for (uint32_t i = 0; i < r->columns; i++)
         fprintf(r->history.f, "%s%.10g", i ? "," : "", row[r->column[i]]);
+    double added[MOST_COLUMNS];
+    gauges_row(&r->extra, r->b, r->sim, added);
+    for (uint32_t i = 0; i < r->extra.columns; i++)
+        fprintf(r->history.f, ",%.10g", added[i]);
     fputc('\n', r->history.f);
     return output_flush(&r->history);
 }
@@ -140,6 +144,11 @@ static void put_title(const run *r, FILE *f)
     fputc('\n', f);
 }
 
+static const char *column_name(const run *r, uint32_t i)
+{
+    return i < r->columns ? r->scene.column[r->column[i]] : r->extra.name[i - r->columns];
+}
+
 /* are the columns of a history those of this run? else a message */
 static bool same_columns(const run *r, const table *t)
 {
@@ -152,12 +161,12 @@ static bool same_columns(const run *r, const table *t)
                 head);
         return false;
     }
-    same = t->columns == r->columns;
-    for (uint32_t i = 0; same && i < r->columns; i++)
-        same = !strcmp(t->name[i], r->scene.column[r->column[i]]);
+    same = t->columns == r->columns + r->extra.columns;
+    for (uint32_t i = 0; same && i < t->columns; i++)
+        same = !strcmp(t->name[i], column_name(r, i));
     if (!same)
         host_no("out=%s: %s has other columns than this run (%u, %u); give another out=", r->out, t->file, t->columns,
-                r->columns);
+                r->columns + r->extra.columns);
     return same;
 }
 
@@ -265,8 +274,8 @@ bool run_begin_files(run *r, bool *skip)
     } else if (r->history.f) {
         fputs("# ", r->history.f);
         put_title(r, r->history.f);
-        for (uint32_t i = 0; i < r->columns; i++)
-            fprintf(r->history.f, "%s%s", i ? "," : "", r->scene.column[r->column[i]]);
+        for (uint32_t i = 0; i < r->columns + r->extra.columns; i++)
+            fprintf(r->history.f, "%s%s", i ? "," : "", column_name(r, i));
         fputc('\n', r->history.f);
     }
     return (!r->history.f || output_begin(&r->history)) && (!r->stage.f || output_begin(&r->stage));

@@ -26,7 +26,8 @@
     X(hole)                                                                                                 \
     X(chamber)                                                                                              \
     X(block)                                                                                                \
-    X(caldera)
+    X(caldera)                                                                                              \
+    X(solitary)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \

@@ -137,7 +137,7 @@ static void compare_momentum(const o_scene *s)
     for (uint32_t k = 0; alone && k < 3; k++) {
         check("momentum from nowhere", SPH_NO_PARTICLE, k, force[k].v, (o_sum){0, force[k].s}, 0);
         /* after Bonet & Lok the force is T x_ij, which turns a pair; only all together do not turn, where all have N */
-        if (along && c->gradient == SPH_PLAIN)
+        if (along && c->gradient == SPH_PLAIN && c->shear == SPH_NO_SHEAR)
             check("turn from nowhere", SPH_NO_PARTICLE, k, turn[k].v, (o_sum){0, turn[k].s}, 0);
     }
 }
@@ -163,7 +163,7 @@ static void compare_limits(const sph_sim *sim, const o_scene *s)
     const struct {
         const char *name, *part;
         double v, scale;
-    } of[] = {{"courant limit", "courant", l.courant, 1},   {"viscous limit", "viscous", l.viscous, 1},
+    } of[] = {{"courant limit", "courant", l.courant, l.courant_scale},   {"viscous limit", "viscous", l.viscous, 1},
               {"force limit", "force", l.force, force_scale(s)}, {"gravity limit", "gravity", l.gravity, 1},
               {"diffusion limit", "diffusi", l.diffusion, 1}};
     for (size_t k = 0; k < sizeof of / sizeof *of; k++)

@@ -47,6 +47,7 @@ static void body_pair(o_scene *s, o_particle *i, const o_particle *j)
         o_pressure_force(s, i, j, &p);
     }
     o_viscosity(s, i, j, &p);
+    o_shear_force(s, i, j, &p);
     o_diffusion(s, i, j, &p);
     if (!solids || !s->cfg.xsph_strain)
         o_drift(s, i, j, &p);

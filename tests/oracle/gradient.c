@@ -114,11 +114,17 @@ static void bonet_lok(const o_scene *s, o_particle *p)
 void o_correct(o_scene *s)
 {
     const bool solids = s->cfg.solid == SPH_CORRECTED || s->cfg.solid == SPH_TOTAL;
-    if (!solids && s->cfg.gradient == SPH_PLAIN)
-        return;
-    for (uint32_t i = 0; i < s->n; i++)
+    const bool plain = !solids && s->cfg.gradient == SPH_PLAIN;
+    for (uint32_t i = 0; i < s->n && !plain; i++)
         correct(s, &s->own[i]);
-    o_copies(s);
+    if (!plain || s->cfg.shear != SPH_NO_SHEAR)
+        o_copies(s);
+    if (s->cfg.shear != SPH_NO_SHEAR) {
+        o_make_shear(s);
+        o_copies(s);
+    }
+    if (plain)
+        return;
     for (uint32_t i = 0; i < s->n && !solids; i++)
         bonet_lok(s, &s->own[i]);
     for (uint32_t i = 0; i < s->m && !solids; i++)

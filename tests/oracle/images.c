@@ -35,6 +35,11 @@ static void behind(const o_scene *s, o_particle *p, int axis, int side)
         for (int l = 0; l < 3; l++)
             if (l == axis || face == SPH_MIRROR_NO_SLIP)
                 velocity[k][l] = -velocity[k][l];
+    /* T: its first index as velocities, its second as places */
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++)
+            if ((k == axis || face == SPH_MIRROR_NO_SLIP) != (l == axis))
+                p->shear[k][l] = -p->shear[k][l];
     for (int l = 0; l < 3; l++) {
         if (l == axis)
             continue;

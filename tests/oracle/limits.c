@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* limits.c: what each limit of the time step allows (Gray 2001 eq 2.30; Wickramarachchi 2009 eqs 3.88-3.90):
      courant    cfl h/(c + h max|mu|)       c: the fastest sound of any set; of solids with 4 mu/3 rho0 (Gray 5.52)
-     viscous    viscous_factor h^2/nu       nu of Morris, or alpha c0 h/(2 (DIM + 2)) of the artificial viscosity
+     viscous    viscous_factor h^2/nu       nu of Morris, of a viscous stress (large eddies: shear.c), or alpha c0 h/(2 (DIM + 2)) of the artificial viscosity
      force      force_factor sqrt(h/max|a|) gravity  gravity_factor h/(c + sqrt(g h))
      diffusion  f h/(delta c0)              c0: the fastest of the bodies' sets, as both are made with it; f: 7/8 of
                 what the integrator stands (sph/factors.c): 1/8 (Wendland C4: 0.095), twice that in Runge-Kutta, half of
@@ -12,7 +12,7 @@
    least. */
 #include "oracle.h"
 
-static double courant_number(const sph_config *c)
+double o_courant_number(const sph_config *c)
 {
     double d = c->diffusion ? c->delta : 0;
     if (c->integrator != SPH_PREDICTOR_CORRECTOR)
@@ -40,6 +40,7 @@ o_limits o_find_limits(const o_scene *s)
     const sph_config *c = &s->cfg;
     const double h = c->smoothing_length;
     o_limits l = {0, 0, 0, 0, 0, 0};
+    l.courant_scale = 1;
     double sound = c->solid == SPH_TOTAL ? c->sound_speed : 0, nominal = sound, mu = 0, a = 0, g2 = 0;
     for (uint32_t k = 0; k < s->sets; k++) {
         const o_set *set = &s->set[k];
@@ -53,6 +54,10 @@ o_limits o_find_limits(const o_scene *s)
         if (!o_is_body(s, p))
             continue;
         mu = o_max(mu, p->mu);
+        if (c->shear != SPH_NO_SHEAR && p->eddy > mu) {
+            mu = p->eddy;
+            l.courant_scale = p->eddy_scale;
+        }
         a = o_max(a, sqrt(p->a[0].v * p->a[0].v + p->a[1].v * p->a[1].v + p->a[2].v * p->a[2].v));
     }
     for (int k = 0; k < SPH_DIM; k++)
@@ -60,8 +65,9 @@ o_limits o_find_limits(const o_scene *s)
     if (c->dt > 0)
         return l;
     const double nu = c->viscosity == SPH_MORRIS ? c->nu
-                    : c->viscosity ? c->alpha * nominal * h / (2 * (SPH_DIM + 2)) : 0;
-    l.courant = courant_number(c) * h / (sound + h * mu);
+                    : (c->viscosity ? c->alpha * nominal * h / (2 * (SPH_DIM + 2)) : 0) +
+                      (c->shear ? c->nu : 0);
+    l.courant = o_courant_number(c) * h / (sound + h * mu);
     l.viscous = nu > 0 ? c->viscous_factor * h * h / nu : 0;
     l.force = a > 0 ? c->force_factor * sqrt(h / a) : 0;
     l.gravity = g2 > 0 ? c->gravity_factor * h / (sound + sqrt(sqrt(g2) * h)) : 0;

@@ -69,6 +69,8 @@ typedef struct o_particle {
     double inverse_scale;      /* magnitude that rounding errors of the inverse are relative to */
     double t[3][3];            /* T of a stress (solids) or p N/rho (Bonet & Lok) */
     double t_scale;
+    double shear[3][3];        /* T of the viscous stress of fluids */
+    double shear_scale, eddy, eddy_scale; /* of T; what the Courant limit sees as |mu|, and how well it is known */
     double pull[3][3];         /* artificial stress R */
     double cover;              /* Q of the quadrature weights */
     o_sum phi;                 /* the weight; 0: 1 */
@@ -170,6 +172,10 @@ void o_weigh(o_scene *s);                      /* quadrature.c: phi */
 void o_continuity(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);  /* fluid.c */
 void o_pressure_force(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
 void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p); /* viscosity.c */
+/* the relative velocity that viscosity sees; false: none, a wall with free slip */
+bool o_sheared_velocity(const o_scene *s, const o_particle *i, const o_particle *j, const o_pair *p, double *v);
+void o_make_shear(o_scene *s);                                                            /* shear.c */
+void o_shear_force(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
 void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);   /* diffusion.c */
 void o_boundary(o_scene *s, o_particle *i, const o_particle *j);                           /* boundary.c */
 void o_stresses(o_scene *s);                                                               /* stress.c */
@@ -198,6 +204,7 @@ typedef struct o_limits {
     double courant_scale;
 } o_limits;
 o_limits o_find_limits(const o_scene *s);
+double o_courant_number(const sph_config *c); /* cfl, or what the integrator stands */
 
 /* ---- books.c ---- */
 typedef struct o_totals {

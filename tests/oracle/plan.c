@@ -105,6 +105,13 @@ static void draw_choices(plan *p)
     }
     if (chance(0.35))
         draw_usual(p);
+    if (c->solid == SPH_NO_SOLID && c->viscosity != SPH_MORRIS && chance(0.3)) {
+        c->shear = 1 + pick(SPH_SHEARS - 1);
+        c->smagorinsky = range(0, 2);
+        c->subgrid = range(0, 1);
+        if (c->shear != SPH_NESTED && chance(0.5))
+            c->nu = 0;
+    }
     if (c->diffusion == SPH_NO_DIFFUSION && c->gradient == SPH_PLAIN && c->solid == SPH_NO_SOLID && chance(0.25))
         c->density = SPH_SUMMATION;
     for (int k = 0; k < SPH_DIM; k++)
@@ -371,6 +378,7 @@ void plan_print(const plan *p)
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
            c->integrator, p->steps);
+    printf("  shear %u, cs %g, ci %g\n", c->shear, c->smagorinsky, c->subgrid);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,

@@ -11,8 +11,7 @@
 
 #define MORRIS_SOFTENING 1e-6
 
-/* the relative velocity that viscosity sees */
-static bool relative(const o_scene *s, const o_particle *i, const o_particle *j, const o_pair *p, double *v)
+bool o_sheared_velocity(const o_scene *s, const o_particle *i, const o_particle *j, const o_pair *p, double *v)
 {
     const o_set *wall = &s->set[j->set];
     for (int k = 0; k < 3; k++)
@@ -42,7 +41,7 @@ void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p
 {
     const double h = s->cfg.smoothing_length, m = s->set[j->set].mass, rho = 0.5 * (i->rho + j->rho);
     double v[3], a[3], k[3], stretch;
-    if (s->cfg.viscosity == SPH_INVISCID || !relative(s, i, j, p, v))
+    if (s->cfg.viscosity == SPH_INVISCID || !o_sheared_velocity(s, i, j, p, v))
         return;
     const double vx = o_dot(v, p->x);
     double mu = vx / (p->r * p->r + 0.01 * h * h), scale;
