@@ -61,20 +61,19 @@ static __attribute__((noinline, unused)) uint32_t sph_probe_here(const volatile 
     return (SPH_DOUBLE ? 0 : sph_probe_real(v)) | sph_probe_double(v);
 }
 
-/* knobs as bits, in the order of their list */
+/* knobs in the order of their list, and how each is set where this is compiled */
 enum {
-#define SPH_KNOB_BIT(name, needs) SPH_BIT_OF_##name,
-    SPH_KNOBS(SPH_KNOB_BIT)
-#undef SPH_KNOB_BIT
+#define SPH_KNOB_PLACE(name, needs) SPH_PLACE_OF_##name,
+    SPH_KNOBS(SPH_KNOB_PLACE)
+#undef SPH_KNOB_PLACE
     SPH_KNOB_COUNT
 };
-_Static_assert(SPH_KNOB_COUNT <= 64, "knobs are bits of 64");
-#define SPH_KNOB_SET(name, needs) | (uint64_t)SPH_WITH_##name << SPH_BIT_OF_##name
-#define SPH_KNOBS_HERE (0 SPH_KNOBS(SPH_KNOB_SET))
+#define SPH_KNOB_SET(name, needs) (SPH_WITH_##name) != 0,
+#define SPH_KNOBS_HERE {SPH_KNOBS(SPH_KNOB_SET)}
 
 typedef struct sph_object {
     const char *allowed; /* the words of a refusal, with the object's name */
-    uint64_t knobs;
+    uint8_t knobs[SPH_KNOB_COUNT];
     uint32_t (*probe)(const volatile sph_operands *v);
 } sph_object;
 

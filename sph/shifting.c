@@ -84,15 +84,17 @@ static double shift(const sph_sim *sim, uint32_t i, const double *d)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     sph_pos q[SPH_DIM], step[SPH_DIM];
-    sph_real turned[SPH_DIM] = {0};
     double taken = 0;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         const double s = d[k] / sim->grid.quantum;
         step[k] = (sph_pos)(s < 0 ? s - 0.5 : s + 0.5);
         q[k] = b->pos[k][i] + step[k];
     }
-    if (sph_enforce_faces(sim, q, turned) == 2)
+    const uint32_t turned = sph_enforce_faces(sim, q);
+    if (turned & SPH_LEFT)
         return 0;
+    if (SPH_HAS_MIRRORS && turned)
+        sph_turn_fields(sim, i, turned);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         const bool round = SPH_IS(sim->cfg.face[k][0], PERIODIC);
         const sph_pos way = round ? step[k] : q[k] - b->pos[k][i];
