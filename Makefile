@@ -97,7 +97,7 @@ TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 .PHONY: count house gates gates-quick mutants tool-test
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
-.PHONY: restarts install install-check oracle oracle-breaks
+.PHONY: orders restarts install install-check oracle oracle-breaks
 .PHONY: asan tsan msan fuzz fuzz-replay fuzz-programs replay-programs
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -482,6 +482,13 @@ validate: all
 validate-water validate-solids: validate-%: all
 	$(Q)$(PYTHON) tests/validate_$*.py --tool $(BUILD)/sph
 
+# orders in space of flows and bars that have exact solutions
+orders: $(BUILD)/sph $(BUILD)/orders_bar
+	$(Q)$(PYTHON) tests/orders.py --tool $(BUILD)/sph && cp build/orders.csv tests/results/orders.csv
+$(BUILD)/orders_bar: $(BUILD)/obj/1d/tests/orders_bar.o $(BUILD)/libsph1d.a
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@ -lm
+
 # ---- the lab: accuracy against cost, and stability (tests/lab) ----
 
 # runs are made by a fast build (the bits are the same), instructions are counted in the usual one
@@ -535,6 +542,7 @@ help:
 	'make baremetal  a tank at a fixed rate and a dam break in 192 KiB, on the same -> $(BUILD)/baremetal.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
 	'make validate-water, make validate-solids  a part of them' \
+	'make orders            orders in space of flows and bars        -> tests/results/orders.csv' \
 	'make lab        error against cost, STUDIES="a b" or all (an hour)        -> tests/lab/*.csv' \
 	'make lab-smoke  the coarse rows of it, against the committed tables' \
 	'make charts     charts and a page of the tables (gnuplot)                 -> tests/lab/charts, tests/lab/index.html' \
