@@ -109,7 +109,8 @@ def plates(quick, add):
 
 def beams(quick, add):
     """G15 beside it: a beam clamped at both ends, against plane-strain finite elements; B11: CSM3 of Turek and Hron."""
-    fe = {(float(r["H"]), float(r["mu"])): float(r["T"]) for r in read_table("fe_beam_periods.csv") if r["ends"] == "both"}
+    fe = {(float(r["H"]), float(r["mu"])): float(r["T"]) for r in read_table("fe_beam_periods.csv")
+          if r["ends"] == "both"}
     for faces, targets in (("equal", {10: 0.9, 20: 0.25}), ("quadrature", {10: 0.3, 20: 0.1})):
         runs = {n: Run("beam", n=n, faces=faces, cycles=0.75, frames=100) for n in ((10,) if quick else (10, 20))}
         for n, run in runs.items():
@@ -150,7 +151,8 @@ def csm3_frequency(run):
 def csm3_distance(run):
     table = read_table("turek_hron_csm3.csv")
     t, y = [float(r["time"]) for r in table], [100 * float(r["uy"]) for r in table]
-    return max(100 * abs(interpolate(t, y, x) - v) for x, v in zip(run.col("seconds"), run.col("uy")) if x < 2) / CSM3[0]
+    way = [(x, v) for x, v in zip(run.col("seconds"), run.col("uy")) if x < 2]
+    return 100 * max(abs(interpolate(t, y, x) - v) for x, v in way) / CSM3[0]
 
 
 def first_return(run):

@@ -7,8 +7,8 @@
 #include "solid.h"
 #if SPH_DIM == 2
 
-enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP, PLATE_CLAMP,
-       PLATE_DURATION, PLATE_COMMON };
+enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP,
+       PLATE_CLAMP, PLATE_DURATION, PLATE_COMMON };
 
 #define PLATE_PARAMS(n_, acceleration_, speed_, duration_)                                                             \
     {"length", "cm", "length of the plate", 3, 0.1, 1e4, SCENE_NUMBER},                                                \
