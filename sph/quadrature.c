@@ -2,8 +2,8 @@
 /* quadrature.c: quadrature weights of particles beside flat faces (option face_quadrature, sph_solid.flat_faces).
 
    The energy of a solid is a sum over particles, sum V_i phi_i w(F_i), phi = 1: a midpoint rule, which along a normal
-   through a face misses dx^2/24 dw/dn. Beside a face gradients are one-sided, too: along the face, that of row r is of a
-   place deeper by delta_r (dx; the mean of what the kernel reaches, weighed with g K_t^2), which misses delta_r dx^2
+   through a face misses dx^2/24 dw/dn. Beside a face gradients are one-sided, too: along the face, that of row r is of
+   a place deeper by delta_r (dx; the mean of what the kernel reaches, weighed with g K_t^2), which misses delta_r dx^2
    dw/dn. Both are mended to second order by weights that move energy between the rows beside a face:
 
      Q_i = sum V_j K^2 g_ij/Q0    phi_i = 1 + beta sum V_j K^2 g_ij/Q0 (Q_j - Q_i)    beta = (1/24 + sum delta_r)/S
@@ -11,8 +11,8 @@
    Q0 is a full lattice's sum, so Q = 1 away from faces; S is what the sum of (phi_r - 1)/beta times the depth of row r
    comes to on a lattice with a face (factors.c finds beta and Q0 so: Euler-Maclaurin; derived here). Forces follow from
    the energy: T_i = -phi_i sigma_i M_i^-T/rho (stress.c), so momentum, angular momentum and, with energies that are
-   weighed by phi, the books stay exact. The sum of phi - 1 over a body is 0. Where particles stand in no order phi stays
-   between 1/2 and 3/2. K and g are those of the form of solids;
+   weighed by phi, the books stay exact. The sum of phi - 1 over a body is 0. Where particles stand in no order phi
+   stays between 1/2 and 3/2. K and g are those of the form of solids;
    pairs of a held and a free set are left out of phi, for the face of a clamp is none.
 
    Field: quadrature (one real), made with the first forces of a particle and kept. Cost: two sweeps, once. */

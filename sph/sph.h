@@ -141,7 +141,11 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
               it began (else MOVED_TOO_FAR). Contact of two bodies: no stress is shared; they push each other along
               x_ij, nearer than dx, as by a pressure rho0 c0^2 (W/W(dx) - 1) of the configuration in both: no
               adhesion, no friction but that of uneven surfaces (and viscosity where that is asked for). Other pairs
-              (rubble, fluid) take K = x_ij. */
+              (rubble, fluid) take K = x_ij.
+   With face_quadrature (CORRECTED, TOTAL; 2-D, 3-D) sets with flat_faces count the energy of the particles beside their
+   free faces, and so T, with weights phi that make bending of second order: 1 + c in the outermost row, 1 - c in the
+   next, c = 0.07 where the kernel reaches neighbours and diagonals only (quadrature.c). Made with the first forces and
+   kept, one real a particle. For faces along a lattice of the configured spacing; on rims with steps they do harm. */
 enum { SPH_NO_SOLID, SPH_UPDATED, SPH_CORRECTED, SPH_TOTAL, SPH_SOLIDS };
 
 /* Yield. VON_MISES: where sqrt(3 J2) exceeds Y = yield + hardening * plastic strain, S is returned along the radius.

@@ -59,7 +59,7 @@ static double weight_at(const sph_sim *sim, uint32_t id)
 }
 
 /* where the kernel reaches neighbours and diagonals only: 1 + c, 1 - c, 1 ..., c = 1/24 + delta, delta = 2 g(sqrt 2)/(2
-   g(1) + 2 g(sqrt 2)) in 2-D, in 3-D with the four diagonals of which two count: (2 g(sqrt 2))/(2 g(1) + 6 g(sqrt 2)) */
+   g(1) + 2 g(sqrt 2)) in 2-D, 2 g(sqrt 2)/(2 g(1) + 6 g(sqrt 2)) in 3-D, where a row has diagonals of its own */
 static void rows_beside_a_face_have_the_weights_of_the_derivation(void **state)
 {
     (void)state;
@@ -148,8 +148,8 @@ static void the_energy_of_a_bent_strip_is_nearly_exact(void **state)
         }
 }
 
-/* no face where a clamp holds: in the column beside it rows away from its ends have weight 1, and the outermost one lacks
-   but the diagonal to the clamp */
+/* no face where a clamp holds: in the column beside it rows away from its ends have weight 1, and the outermost one
+   lacks but the diagonal to the clamp */
 static void a_clamp_is_no_face(void **state)
 {
     sph_config c = config_of(SPH_TOTAL, 0.8, 3);

@@ -47,7 +47,7 @@ def plates(quick, add):
             lambda r, ref=ref: 100 * abs(period(r) / ref - 1))
         add(f"{tag}; thesis {row['T_sph']}, finite elements {ref:g}", "cm/c0", None, [run], period)
     n = 10
-    for clamp, kind in (("surfaces", "T_B"), ("ideal", "T_A"), ("region", "T_A")):
+    for clamp, kind in (("surfaces", "T_B"), ("on_surfaces", "T_B"), ("ideal", "T_A"), ("region", "T_A")):
         run = Run("plate", speed=0.001, n=n, clamp=clamp, cycles=0.6, every=10)
         add(f"G15 H 2 mu 0.22 n={n} clamp {clamp} period against finite elements", "%", None, [run],
             lambda r, k=kind: 100 * abs(period(r) / float(fe[2.0, 0.22][k]) - 1))
@@ -56,6 +56,10 @@ def plates(quick, add):
     free = {size: Run("plate", speed=0.001, n=size, cycles=0.6, every=10) for size in sizes}
     for size, run in free.items():
         add(f"G15 H 2 mu 0.22 n={size} period against finite elements", "%", {10: 0.9, 20: 0.25}.get(size), [run], off)
+    weighed = {size: Run("plate", speed=0.001, n=size, faces="quadrature", cycles=0.6, every=10) for size in sizes[1:]}
+    for size, run in weighed.items():
+        add(f"G15 H 2 mu 0.22 n={size} faces quadrature period against finite elements", "%", {10: 0.3, 20: 0.1}[size],
+            [run], off)
     coarse, fine = sorted(free)[-2:]
     add(f"G15 H 2 mu 0.22 order of the period n={coarse}..{fine}", "-", (">=", 1.9), [free[coarse], free[fine]],
         lambda a, b: math.log(off(a) / off(b)) / math.log(fine / coarse))
@@ -103,6 +107,54 @@ def plates(quick, add):
     add("G16 energy left over: books", "%", 1.0, [plastic], lambda r: 100 * abs(r.col("energy")[-1] - 1))
 
 
+def beams(quick, add):
+    """G15 beside it: a beam clamped at both ends, against plane-strain finite elements; B11: CSM3 of Turek and Hron."""
+    fe = {(float(r["H"]), float(r["mu"])): float(r["T"]) for r in read_table("fe_beam_periods.csv")
+          if r["ends"] == "both"}
+    for faces, targets in (("equal", {10: 0.9, 20: 0.25}), ("quadrature", {10: 0.3, 20: 0.1})):
+        runs = {n: Run("beam", n=n, faces=faces, cycles=0.75, frames=100) for n in ((10,) if quick else (10, 20))}
+        for n, run in runs.items():
+            add(f"G15 beam clamped at both ends, H 2 mu 0.22 n={n} faces {faces} period against finite elements", "%",
+                targets[n], [run], lambda r: beam_error(r, fe[2.0, 0.22]))
+    run = Run("beam", n=10, clamp="region", cycles=0.75, frames=100)
+    add("G15 beam clamped at both ends, n=10 clamp region period against finite elements", "%", None, [run],
+        lambda r: beam_error(r, fe[2.0, 0.22]))
+    for n in (5,) if quick else (5, 10):
+        run = Run("csm3", n=n, frames=400)
+        add(f"B11 CSM3 n={n} amplitude of A against 65.160 mm", "%", 2.0 if n == 10 else None, [run],
+            lambda r: 100 * abs(csm3_amplitude(r) / CSM3[0] - 1))
+        add(f"B11 CSM3 n={n} frequency against 1.0995 Hz", "%", 1.0 if n == 10 else None, [run],
+            lambda r: 100 * abs(csm3_frequency(r) / CSM3[1] - 1))
+        add(f"B11 CSM3 n={n} largest distance of A from the authors' series, over the amplitude", "%", None, [run],
+            csm3_distance)
+
+
+CSM3 = 6.5160, 1.0995  # amplitude of A (cm) and frequency (Hz) that Turek and Hron print
+
+
+def beam_error(run, exact):
+    t = [x for x in zero_crossings(run.col("time"), run.col("mode")) if x > 1]
+    return 100 * abs(2 * t[0] / exact - 1)
+
+
+def csm3_amplitude(run):
+    return 0.5 * (max(run.col("uy")) - min(run.col("uy")))
+
+
+def csm3_frequency(run):
+    """From the first and the second time that A falls through the middle of its way."""
+    middle = 0.5 * (max(run.col("uy")) + min(run.col("uy")))
+    t = zero_crossings(run.col("seconds"), [y - middle for y in run.col("uy")])
+    return 1 / (t[2] - t[0])
+
+
+def csm3_distance(run):
+    table = read_table("turek_hron_csm3.csv")
+    t, y = [float(r["time"]) for r in table], [100 * float(r["uy"]) for r in table]
+    way = [(x, v) for x, v in zip(run.col("seconds"), run.col("uy")) if x < 2]
+    return 100 * max(abs(interpolate(t, y, x) - v) for x, v in way) / CSM3[0]
+
+
 def first_return(run):
     """When the tip first comes back to where it began; the run's end where it does not."""
     t = [x for x in zero_crossings(run.col("time"), run.col("tip")) if x > 1]
@@ -115,7 +167,7 @@ def late(run):
     return y[len(y) // 2:]
 
 
-GROUPS = [plates]
+GROUPS = [plates, beams]
 
 
 # ---- G12: a longitudinal pulse (Gray 2001, 5.6.1) ----

@@ -5,8 +5,8 @@
      V(x) = V_f f(x)/f(L/2), f = cosh bx - cos bx - s (sinh bx - sin bx), cos bL cosh bL = 1, b L = 4.7300,
      s = (cosh bL - cos bL)/(sinh bL - sin bL)
    of a thin beam, whose period is 2 pi/sqrt(mu H^2 b^4/(6 rho (1 - nu))). A beam of finite height swings slower;
-   tests/refdata/fe_beam_periods.csv has the periods of plane-strain finite elements. What swings is read as its share of
-   that mode, sum m f y/sum m f^2, in which higher modes hardly show. */
+   tests/refdata/fe_beam_periods.csv has the periods of plane-strain finite elements. What swings is read as its
+   share of that mode, sum m f y/sum m f^2, in which higher modes hardly show. */
 #include "solid.h"
 #if SPH_DIM == 2
 
@@ -59,7 +59,8 @@ static void configure(const double *p, sph_config *c)
 
 static double mode(const double *p, double x)
 {
-    const double up = sph_exp(BETA_L), s = (0.5 * (up + 1 / up) - sph_cos(BETA_L)) / (0.5 * (up - 1 / up) - sph_sin(BETA_L));
+    const double up = sph_exp(BETA_L);
+    const double s = (0.5 * (up + 1 / up) - sph_cos(BETA_L)) / (0.5 * (up - 1 / up) - sph_sin(BETA_L));
     const double z = BETA_L * x / p[LENGTH], e = sph_exp(z);
     return 0.5 * (e + 1 / e) - sph_cos(z) - s * (0.5 * (e - 1 / e) - sph_sin(z));
 }

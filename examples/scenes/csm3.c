@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* csm3.c: CSM3 of Turek & Hron (2006): an elastic beam 35 x 2 cm behind a fixed cylinder of radius 5 cm falls from rest
    under gravity and swings. E 1.4e6, nu 0.4, rho 1000, g 2 in SI units: in those of solid.h, bulk modulus, rho0 and c0
-   (48.305 m/s) being 1, mu is 0.21429, g 8.5714e-6 c0^2/cm, and a second is 4830.5 cm/c0. Point A, the middle of the free
-   end, swings by 65.16 mm about -63.61 mm, at 1.0995 Hz (their level 4, dt 0.005).
-   The clamp is ideal (solid_clamp): held particles stand on the cylinder, and each row of free ones has its own spacing,
-   so that it begins a spacing from the cylinder and ends half a spacing from the end. Tensile strains reach 4 %. Theirs is
-   the material of St Venant and Kirchhoff, ours hypoelastic (Jaumann): the same but for squares of strains. */
+   (48.305 m/s) being 1, mu is 0.21429, g 8.5714e-6 c0^2/cm, and a second is 4830.5 cm/c0. Point A, the middle of the
+   free end, swings by 65.16 mm about -63.61 mm, at 1.0995 Hz (their level 4, dt 0.005).
+   The clamp is ideal (solid_clamp): held particles stand on the cylinder, and each row of free ones has its own
+   spacing, so that it begins a spacing from the cylinder and ends half a spacing from the end. Tensile strains reach
+   4 %. Theirs is the material of St Venant and Kirchhoff, ours hypoelastic (Jaumann): the same but for squares of
+   strains. */
 #include "solid.h"
 #if SPH_DIM == 2
 

@@ -6,8 +6,8 @@
      the face, which costs the first order of the spacing. The ideal clamp is one row of held particles whose centres
      stand on the face (solid_clamp in solid.h). The free rows begin a spacing from the face and end half a spacing from
      the end, length = (columns + 1/2) dx: their spacing along x is a little off that across.
-     Gray's clamp mended in the same way (on_surfaces): held rows stand on both surfaces, and the rows of the plate between
-     them are a spacing H/(n + 1) apart, a little less than in front of the clamp.
+     Gray's clamp mended in the same way (on_surfaces): held rows stand on both surfaces, and the rows of the plate
+     between them are a spacing H/(n + 1) apart, a little less than in front of the clamp.
    Starts from rest in shape with the velocity of the mode
      V(x) = V_f [A (cosh bx - cos bx) + B (sinh bx - sin bx)]/(the same at L), cos bL cosh bL = -1, b L = 1.8751
    of a thin plate, whose period is 2 pi/sqrt(mu H^2 b^4/(6 rho (1 - nu))) (eq 6.3); tests/refdata/fe_plate_periods.csv

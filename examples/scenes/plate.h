@@ -7,8 +7,8 @@
 #include "solid.h"
 #if SPH_DIM == 2
 
-enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP, PLATE_CLAMP,
-       PLATE_DURATION, PLATE_COMMON };
+enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCELERATION, PLATE_SPEED, PLATE_GRIP,
+       PLATE_CLAMP, PLATE_DURATION, PLATE_COMMON };
 
 #define PLATE_PARAMS(n_, acceleration_, speed_, duration_)                                                             \
     {"length", "cm", "length of the plate", 3, 0.1, 1e4, SCENE_NUMBER},                                                \
@@ -18,7 +18,7 @@ enum { PLATE_LENGTH = SOLID_COMMON, PLATE_HEIGHT, PLATE_N, PLATE_END, PLATE_ACCE
     {"acceleration", "c0^2/cm", "of either end, outwards", acceleration_, 0, 1, SCENE_NUMBER},                         \
     {"speed", "c0", "of either end, outwards", speed_, 0, 0.1, SCENE_NUMBER},                                          \
     {"grip", "-", "what is held along x only or fully: x both", 0, 0, 1, SCENE_CHOICE},                                \
-    {"clamp", "-", "what is held: the ends, or one column on their face (solid_clamp): ends ideal", 0, 0, 1,           \
+    {"clamp", "-", "held are the ends, or one column on their face (solid_clamp): ends ideal", 0, 0, 1,               \
      SCENE_CHOICE},                                                                                                    \
     {"duration", "cm/c0", "length of the run", duration_, 0, 1e6, SCENE_NUMBER}
 

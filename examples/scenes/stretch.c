@@ -169,7 +169,8 @@ sph_status stretch_build(sph_sim *sim, const double *p, const stretch *b, const 
     if ((st = sph_add_solid(sim, rock, &set, NULL)) != SPH_OK ||
         (st = b->bent ? add_bent(sim, set, b, s.hi) : sph_add_shape(sim, set, &s)) != SPH_OK ||
         (flaws && (st = sph_add_flaws(sim, set, flaws)) != SPH_OK) ||
-        (st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK || (st = sph_add_box(sim, set, right, to, NULL)) != SPH_OK)
+        (st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK ||
+        (st = sph_add_box(sim, set, right, to, NULL)) != SPH_OK)
         return st;
     end.motion = to_left;
     if (!b->half && ((st = sph_add_solid(sim, &end, &set, NULL)) != SPH_OK ||

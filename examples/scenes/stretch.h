@@ -18,7 +18,7 @@ enum { STRETCH_SPEED = SOLID_COMMON, STRETCH_RAMP, STRETCH_PULL, STRETCH_GRIP, S
      SCENE_NUMBER},                                                                                                    \
     {"grip", "dx", "columns of particles held along x at each end", 2, 1, 20, SCENE_WHOLE},                            \
     {"slow", "-", "the ends go as far, but slower by this factor", 1, 0.01, 1000, SCENE_NUMBER},                       \
-    {"clamp", "-", "what is held: the last columns, or one on the end's face (solid_clamp): columns ideal", 0, 0, 1,   \
+    {"clamp", "-", "held are the last columns, or one on the end's face (solid_clamp): columns ideal", 0, 0, 1,      \
      SCENE_CHOICE}
 
 /* and those that break, after these */

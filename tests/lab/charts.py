@@ -169,7 +169,8 @@ def h_chart(study):
 # ---- error against the Courant number ----
 
 # scenes of solids
-SOLIDS = ("pulse", "rings", "plate", "hole", "block", "stretch", "tension", "brittle", "chamber", "caldera")
+SOLIDS = ("pulse", "rings", "plate", "beam", "csm3", "hole", "block",
+          "stretch", "tension", "brittle", "chamber", "caldera")
 
 
 def theory_of(study, rows, atlas):

@@ -33,6 +33,9 @@ KINDS = {
     "pulse_amplitude": "Waves in solids: what is lost of them",
     "rings": "Solids that collide and deform",
     "plate": "Bending and swinging of slender solids",
+    "beam": "Slender solids clamped at both ends",
+    "csm3": "Slender solids that swing far: how far",
+    "csm3_frequency": "Slender solids that swing far: how fast",
     "hole": "Stress at holes and notches",
 }
 ATLAS = (

@@ -407,17 +407,54 @@ plate = Study(
     "plate", "clamped plate, H 2, mu 0.22, V_f 0.001 (G15)", "plate", "period", "%",
     "plane-strain finite elements, tests/refdata/fe_plate_periods.csv", plate_error,
     "n, particles across the thickness", [6, 8, 10, 14],
-    {"total": {}, "total, clamp of a region": dict(clamp="region"), "total, cubic h 1.2": dict(kernel="cubic", h=1.2),
+    {"total": {}, "total, quadrature": dict(faces="quadrature"), "total, clamp of a region": dict(clamp="region"),
+     "total, cubic h 1.2": dict(kernel="cubic", h=1.2),
      "total, h 1.0": dict(h=1.0), "total, h 1.2": dict(h=1.2),
      "corrected, epsilon 0.3, alpha 0.1": dict(form="corrected", alpha=0.1, h=1.2),
      "corrected, epsilon 0": dict(form="corrected", repulsion="none", h=1.2),
      "Gray's own: alpha 0.5, epsilon 0.3": plus(solids.CASE_OF_GRAY, alpha=0.5, repulsion="principal"),
      "Gray's, epsilon 0": plus(solids.CASE_OF_GRAY, alpha=0.5, repulsion="none"),
      "total, predictor-corrector, alpha 0.5": dict(integrator="predictor_corrector", alpha=0.5)},
-    base=dict(speed=0.001, cycles=0.6, every=10), more={"total": [20]}, doubles=("total",), at=8,
+    base=dict(speed=0.001, cycles=0.6, every=10), more={"total": [20], "total, quadrature": [20]}, doubles=("total",),
+    at=8,
     h={"total": ({}, [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4]),
        "corrected": (dict(form="corrected", alpha=0.1), [0.8, 1.0, 1.2, 1.4])},
     courant=by_integrator({}, 1.4), step=lambda n, h: h * 2 / n)
+
+BEAM = next(float(r["T"]) for r in read_table("fe_beam_periods.csv") if r["ends"] == "both" and float(r["H"]) == 2
+            and float(r["mu"]) == 0.22)
+
+
+def beam_error(run):
+    return solids.beam_error(whole(run), BEAM)
+
+
+def csm3_error(run):
+    return 100 * abs(solids.csm3_amplitude(whole(run)) / solids.CSM3[0] - 1)
+
+
+def csm3_frequency(run):
+    return 100 * abs(solids.csm3_frequency(whole(run)) / solids.CSM3[1] - 1)
+
+
+beam = Study(
+    "beam", "beam clamped at both ends, H 2, mu 0.22, V_f 0.001", "beam", "period", "%",
+    "plane-strain finite elements, tests/refdata/fe_beam_periods.csv", beam_error,
+    "n, particles across the height", [6, 8, 10, 14],
+    {"total": {}, "total, quadrature": dict(faces="quadrature"), "total, clamps of a region": dict(clamp="region"),
+     "total, region, quadrature": dict(clamp="region", faces="quadrature")},
+    base=dict(cycles=0.75, frames=100), more={"total": [20], "total, quadrature": [20]},
+    doubles=("total, quadrature",))
+
+csm3 = Study(
+    "csm3", "CSM3 of Turek and Hron: a beam swings under gravity (B11), amplitude", "csm3", "amplitude of A", "%",
+    "65.160 mm, Turek & Hron 2006", csm3_error, "n, particles across the beam", [4, 5, 8],
+    {"total": dict(faces="equal"), "total, quadrature": {}}, base=dict(frames=400), more={"total, quadrature": [10]})
+
+csm3_beat = Study(
+    "csm3_frequency", "CSM3 of Turek and Hron: a beam swings under gravity (B11), frequency", "csm3", "frequency", "%",
+    "1.0995 Hz, Turek & Hron 2006", csm3_frequency, "n, particles across the beam", [4, 5, 8],
+    {"total": dict(faces="equal"), "total, quadrature": {}}, base=dict(frames=400), more={"total, quadrature": [10]})
 
 hole = Study(
     "hole", "hole in a block (G19)", "hole", "largest stress on the rim off the exact 3.0546 p1", "%",
@@ -433,13 +470,14 @@ hole = Study(
 
 STUDIES = [hydrostatic, still_tank, dam_break, impact, impact_top, impact_after, impact_levels, dam_break_3d, obstacle,
            obstacle_peaks, taylor_green, channel, standing_wave, elliptical_drop, pulse, pulse_amplitude, rings, plate,
-           hole]
+           beam, csm3, csm3_beat, hole]
 QUANTITY = {
     "hydrostatic": "pressure", "still_tank": "pressure", "dam_break": "front", "impact": "pressure noise",
     "impact_peak": "pressure peak", "impact_mean": "pressure mean", "impact_levels": "levels front",
     "dam_break_3d": "front", "obstacle": "levels front", "obstacle_peaks": "pressure peak", "taylor_green": "energy",
     "channel": "velocity", "standing_wave": "surface", "elliptical_drop": "front", "pulse": "speed",
-    "pulse_amplitude": "amplitude", "rings": "shape", "plate": "period", "hole": "stress",
+    "pulse_amplitude": "amplitude", "rings": "shape", "plate": "period", "beam": "period",
+    "csm3": "amplitude", "csm3_frequency": "frequency", "hole": "stress",
 }
 for study in STUDIES:
     study.quantity = QUANTITY[study.name]

@@ -382,7 +382,8 @@ void plan_print(const plan *p)
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,
-           c->stress_epsilon, c->xsph_strain ? " xsph_strain" : c->face_quadrature ? " face_quadrature" : "", c->shepard_every, c->books, c->body_force != NULL);
+           c->stress_epsilon, c->xsph_strain ? " xsph_strain" : c->face_quadrature ? " face_quadrature" : "",
+           c->shepard_every, c->books, c->body_force != NULL);
     for (int k = 0; k < SPH_DIM; k++)
         printf("  axis %d: %.17g .. %.17g, %s / %s, gravity %g\n", k, c->lo[k], c->hi[k], word[0][c->face[k][0]],
                word[0][c->face[k][1]], c->gravity[k]);
