@@ -317,6 +317,11 @@ $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/test
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
 
+# those of some cases (tests/mutants.py)
+$(BUILD)/mutants_golden_%: $(BUILD)/obj/%/tests/mutants_golden.o $(BUILD)/libsph%.a
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+
 # those of one build
 $(BUILD)/golden_%: $(BUILD)/obj/%/tests/golden_one.o $(BUILD)/obj/%/tests/golden.o $(BUILD)/libsph%.a
 	$(say) link $@
