@@ -12,7 +12,8 @@ fails. Which lines each passes is known from a build with line counters, made on
   equal     the same object code at -O2 in all six builds: not a change
   invalid   does not compile (another one is drawn in its place)
 
-usage: tests/mutants.py [--count N] [--seed S] [--jobs J] [--out FILE] [--minutes M] [--only sph/FILE] [--again] [--show]
+usage: tests/mutants.py [--count N] [--seed S] [--jobs J] [--out FILE] [--minutes M] [--only sph/FILE]
+                        [--patience SECONDS] [--again] [--show]
 
 Goes on where it stopped: a change that is in the table is not tried again unless its line of code is another now;
 --again tries survivors once more. `note` is written by hand and kept: why nothing sees it, or what would.
@@ -22,14 +23,15 @@ import argparse, csv, glob, hashlib, json, os, random, re, resource, shutil, sub
 
 BUILDS = ["2f", "1d", "3f", "2d", "1f", "3d"]
 GOLDEN = ["2f", "1d", "3f"]
-# commands of the tool, and second builds of what costs most
-LEFT_OUT = r"test_(dispersion|gradykipp|fragments|fields|profile|advise|atlas|scenes)_|test_(lists_(1f|3d)|restarts_(1d|3d))$"
+# commands of the tool, second builds of what costs most, and test_bits, which is the golden runs in many ways
+LEFT_OUT = r"test_(bits|dispersion|gradykipp|fragments|fields|profile|advise|atlas|scenes)_|test_(lists_(1f|3d)|restarts_(1d|3d))$"
 WORK = os.path.join(os.environ.get("BUILD", "build"), "mutants")
 WARN = "-w -Werror=int-conversion -Werror=incompatible-pointer-types -Werror=implicit-function-declaration"
 # the general loop compiles in a third of the time and has the same bits
 MAKE = ["make", "-s", "--no-print-directory", "CC=" + os.environ.get("GCC", "gcc"), "OPT=-O1", "WARN=" + WARN,
         "CFLAGS=-DSPH_ASSERTS=1 -DSPH_WITH_FAST_PATHS=0"]
 TARGET = 95.0
+QUICK = 5  # s of processor time, with line counters: programs that take longer are not asked
 HEAD = ["file", "line", "column", "kind", "from", "to", "verdict", "by", "code", "note"]
 
 # ---- the changes ----
@@ -173,6 +175,8 @@ class Tree:
         for name, words in links.items():
             if re.search(LEFT_OUT, name):
                 continue
+            if name.endswith("_2d") and name[:-1] + "f" in links:
+                continue  # lines that only double passes are few
             self.inputs[name] = [o for w in words if w.endswith((".o", ".a")) and "/" in w for o in archives.get(w, [w])]
         self.links = {n: self.link_words(links[n]) for n in self.inputs}
         print("mutants: the programs are built", flush=True)
@@ -203,7 +207,7 @@ def survey(tree):
     at = os.path.join(WORK, "survey.json")
     kept = json.load(open(at)) if os.path.exists(at) else {"seconds": {}, "lines": {}, "stamp": {}}
     counted = {o: "counted/" + o for o in tree.commands if "/sph/" in o}
-    for name in sorted(tree.inputs):
+    for name in sorted(tree.inputs, key=lambda n: (BUILDS.index(n[-2:]), n)):
         sources = sorted({f for o in tree.inputs[name] for f in tree.commands[o] if f.endswith(".c")})
         stamp = subprocess.run("cat sph/*.h tests/*.h %s Makefile | cksum" % " ".join(sources), shell=True, cwd=tree.at,
                                stdout=subprocess.PIPE).stdout.decode()
@@ -241,7 +245,7 @@ def lines_of(tree, key, cmd, objects, kept):
         if os.path.exists(data):
             os.remove(data)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    rc = run(cmd, tree.at, 300)
+    rc = run(cmd, tree.at, QUICK)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     kept["seconds"][key] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     files = [o[:-2] + ".gcda" for o in objects if os.path.exists(os.path.join(tree.at, o[:-2] + ".gcda"))]
@@ -262,24 +266,28 @@ def lines_of(tree, key, cmd, objects, kept):
     kept["lines"][key] = {f: sorted(v) for f, v in ran.items()}
     if rc:
         kept["seconds"][key] = -1  # fails as it is: says nothing
-    print("  %-32s %6.2f s%s" % (key, kept["seconds"][key], "  FAILS as it is: left out" if rc else ""), flush=True)
+    print("  %-32s %6.2f s%s" % (key, kept["seconds"][key], "  fails or takes long as it is: left out" if rc else ""), flush=True)
 
 
 class Known:
     """the survey, asked by line"""
 
-    def __init__(self, kept):
-        self.seconds = kept["seconds"]
+    def __init__(self, kept, programs):
+        self.seconds = {k: v for k, v in kept["seconds"].items() if k.split(":")[0] in programs}
         self.code = {f: set(v) for f, v in kept["code"].items()}
-        self.ran = {k: {f: set(v) for f, v in of.items()} for k, of in kept["lines"].items()}
+        self.ran = {k: {f: set(v) for f, v in of.items()} for k, of in kept["lines"].items()
+                    if k in self.seconds}
 
     def who(self, path, n):
         """those that pass line n: of a statement over several lines, the nearest line above that is counted"""
         at = n
         while at > n - 12 and at not in self.code.get(path, ()):
             at -= 1
-        lines = [l for l in (at, n, n + 1) if l in self.code.get(path, ())]
-        return [k for k, of in self.ran.items() if self.seconds[k] >= 0 and any(l in of.get(path, ()) for l in lines)]
+        lines = [l for l in ((at,) if at == n else (at, n + 1)) if l in self.code.get(path, ())]
+        sound = [k for k in self.ran if self.seconds[k] >= 0]
+        if not lines:  # a table: whoever runs anything of the file, or a header of macros: everyone
+            return [k for k in sound if path in self.ran[k] or path not in self.code]
+        return [k for k in sound if any(l in self.ran[k].get(path, ()) for l in lines)]
 
 
 # ---- one change ----
@@ -362,7 +370,7 @@ class Worker(threading.Thread):
             cases = [k.split(":")[1] for k in keys]
             if cases and self.tried(name, ["tests/golden.csv"] + cases, 2 + 4 * sum(seconds[k] for k in keys)):
                 return "killed", "golden_" + b
-        names = sorted((k for k in who if ":" not in k), key=lambda k: seconds[k])
+        names = self.in_order(who)
         for name in names:
             if self.tried(name, [], 2 + 4 * seconds[name]):
                 return "killed", os.path.basename(name)
@@ -372,6 +380,20 @@ class Worker(threading.Thread):
         if self.equal(m):
             return "equal", ""
         return "survived", "%d programs ran it" % len(names) if names else "no program runs it"
+
+    def in_order(self, who):
+        """programs, the quickest first, of each test its quickest build before the others; as many as patience allows"""
+        seconds, seen, order, spent = self.known.seconds, set(), [], 0
+        for k in sorted((k for k in who if ":" not in k), key=lambda k: seconds[k]):
+            order.append((k[:-3] in seen, seconds[k], k))
+            seen.add(k[:-3])
+        names = []
+        for _, s, k in sorted(order):
+            spent += s
+            if spent > self.known.patience:
+                break
+            names.append(k)
+        return names
 
     def fast_differs(self):
         """golden runs of 2f with the loops that the Makefile's own build has"""
@@ -463,6 +485,7 @@ def main():
     p.add_argument("--minutes", type=float, default=1e9)
     p.add_argument("--out", default=os.path.join(WORK, "mutants.csv"))
     p.add_argument("--only", default="")
+    p.add_argument("--patience", type=float, default=10, help="processor seconds of tests for one change")
     p.add_argument("--again", action="store_true", help="try survivors of the table once more")
     p.add_argument("--show", action="store_true", help="list the changes, run nothing")
     a = p.parse_args()
@@ -484,7 +507,8 @@ def main():
             del rows[t["key"]]
     done = {"count": sum(r[6] in ("killed", "survived") for r in rows.values()), "want": a.count, "rows": rows}
     tree = Tree(0)
-    known = Known(survey(tree))
+    known = Known(survey(tree), tree.inputs)
+    known.patience = a.patience
     until, lock = time.time() + 60 * a.minutes, threading.Lock()
     workers = [Worker(k, None if k else tree, todo, known, done, lock, a.out, until) for k in range(a.jobs)]
     for w in workers:
