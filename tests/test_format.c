@@ -418,9 +418,158 @@ static void a_solids_materials_and_arrays_are_there(void **state)
     }
 }
 
+/* ---- walls: what sph.h says of them ---- */
+
+static sph_sim *empty_tank(uint32_t max)
+{
+    sph_config c = odd_config();
+    c.max_particles = max;
+    for (int k = 0; k < SPH_DIM; k++)
+        c.face[k][0] = SPH_OPEN;
+    return new_sim(&c);
+}
+
+/* the usual strengths where none is given (section 6 of sph.h), and the one given */
+static void a_wall_without_a_strength_has_the_usual_one(void **state)
+{
+    const sph_config c = odd_config();
+    const double c2 = c.sound_speed * c.sound_speed;
+    /* g H with Gray's c^2 = 200 g H; 0.01; 0.01 c0^2/dx; layers have none */
+    const double usual[SPH_WALLS] = {c2 / 200, 0.01, 0.01 * c2 / DX, 0, 0};
+    double lo[SPH_DIM] = {0}, hi[SPH_DIM];
+    (void)state;
+    for (int k = 0; k < SPH_DIM; k++)
+        hi[k] = 0.75;
+    for (uint32_t kind = 0; kind < SPH_WALLS; kind++)
+        for (int given = 0; given < 2; given++) {
+            sph_wall w = sph_wall_default();
+            sph_sim *sim = empty_tank(3000);
+            w.kind = kind;
+            w.strength = given ? 0.625 : 0;
+            must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, NULL));
+            dump(sim, SPH_DUMP_FULL);
+            const double is = real(field("sets", "strength", "1", F64, 1, 0, 0), F64), want = given ? 0.625 : usual[kind];
+            close_to(is, want, 1e-12 * want);
+            const bool layers = kind == SPH_WALL_GHOST || kind == SPH_WALL_ADAMI;
+            whole_is("sets", "role", U64, 1, 0, 0, layers ? SPH_ROLE_GHOST : SPH_ROLE_FORCE_WALL);
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
+/* Sets of a box: side by side on each face and corner. Of the k-th set of the record: its normal must be the diagonal
+   of the sides it lies on, its origin in the middle of the face, its half extents those of the face, deeper by the
+   layers inside a tank; an obstacle's are no deeper than to its middle. */
+static void a_boxs_faces_stand_where_they_should(void **state)
+{
+    double lo[SPH_DIM], hi[SPH_DIM];
+    const double edge[3] = {0.75, 1, 1.25};
+    (void)state;
+    for (int k = 0; k < SPH_DIM; k++) {
+        lo[k] = 0.25 * k;
+        hi[k] = lo[k] + edge[k];
+    }
+    for (int inside = 0; inside < 2; inside++)
+        for (uint32_t f = 0; f < 2 * SPH_DIM; f++) {
+            const uint32_t axis = f / 2, high = f % 2;
+            sph_wall w = sph_wall_default();
+            const sph_config c = odd_config();
+            sph_sim *sim = empty_tank(6000);
+            w.layers = 2;
+            must(sim, sph_add_wall_box(sim, &w, lo, hi, 1u << f, inside, NULL));
+            dump(sim, SPH_DUMP_FULL);
+            assert_int_equal(number(find("sets") + 40, 8), 1);
+            /* 2 dx deep; an obstacle no deeper than to the middle of its shortest edge */
+            const double thick = inside ? 2 * DX : 0.375;
+            real_is("sets", "thick", "m", 1, 0, 0, thick);
+            for (uint32_t k = 0, t = 0; k < SPH_DIM; k++) {
+                const double out = high ? 1 : -1;
+                real_is("sets", "normal", "1", SPH_DIM, 0, k, k != axis ? 0 : inside ? -out : out);
+                close_to(real(field("sets", "origin", "m", F64, SPH_DIM, 0, k), F64),
+                         (k != axis ? 0.5 * (lo[k] + hi[k]) : high ? hi[k] : lo[k]) - c.lo[k], 1e-12);
+                if (k != axis)
+                    close_to(real(field("sets", "half", "m", F64, 2, 0, t++), F64),
+                             0.5 * edge[k] + (inside ? 2 * DX : 0), 1e-12);
+            }
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
+#if SPH_DIM == 2
+static void a_segment_looks_to_its_left(void **state)
+{
+    const double a[2] = {-0.3, 0.2}, b[2] = {0.6, 1.4}; /* 1.5 long, along (3, 4)/5 */
+    const sph_config c = odd_config();
+    (void)state;
+    for (int rows = 0; rows < 2; rows++) {
+        sph_wall w = sph_wall_default();
+        sph_sim *sim = empty_tank(300);
+        w.kind = rows ? SPH_WALL_KERNEL_FORCE : SPH_WALL_GHOST;
+        w.layers = 3;
+        must(sim, sph_add_wall_segment(sim, &w, a, b, NULL));
+        dump(sim, SPH_DUMP_FULL);
+        close_to(real(field("sets", "normal", "1", F64, 2, 0, 0), F64), -0.8, 1e-12);
+        close_to(real(field("sets", "normal", "1", F64, 2, 0, 1), F64), 0.6, 1e-12);
+        for (uint32_t k = 0; k < 2; k++)
+            close_to(real(field("sets", "origin", "m", F64, 2, 0, k), F64), 0.5 * (a[k] + b[k]) - c.lo[k], 1e-12);
+        close_to(real(field("sets", "half", "m", F64, 2, 0, 0), F64), 0.75, 1e-12);
+        close_to(real(field("sets", "thick", "m", F64, 1, 0, 0), F64), 3 * DX, 1e-12);
+        /* 6 spacings: so many in a layer, or one more on a row, end to end */
+        const uint32_t n = sph_count(sim);
+        assert_int_equal(n, rows ? 7 : 18);
+        for (uint32_t i = 0; i < n; i++) {
+            const sph_particle p = by_id(sim, i);
+            const double x = p.x[0] - a[0], y = p.x[1] - a[1];
+            close_to(0.6 * x + 0.8 * y, rows ? i * DX : (i % 6 + 0.5) * DX, 1e-6);
+            close_to(-0.8 * x + 0.6 * y, rows ? 0 : -(i / 6 + 0.5) * DX, 1e-6);
+        }
+    }
+}
+#endif
+#if SPH_DIM == 3
+static void a_plane_looks_along_e1_x_e2(void **state)
+{
+    /* 1.5 along (3, 4, 0)/5, 1 along z: the normal is (4, -3, 0)/5 */
+    const double o[3] = {-0.3, 0.2, 0.1}, e1[3] = {0.9, 1.2, 0}, e2[3] = {0, 0, 1}, n[3] = {0.8, -0.6, 0};
+    const sph_config c = odd_config();
+    (void)state;
+    for (int rows = 0; rows < 2; rows++) {
+        sph_wall w = sph_wall_default();
+        sph_sim *sim = empty_tank(300);
+        w.kind = rows ? SPH_WALL_KERNEL_FORCE : SPH_WALL_GHOST;
+        w.layers = 3;
+        must(sim, sph_add_wall_plane(sim, &w, o, e1, e2, NULL));
+        dump(sim, SPH_DUMP_FULL);
+        for (uint32_t k = 0; k < 3; k++) {
+            close_to(real(field("sets", "normal", "1", F64, 3, 0, k), F64), n[k], 1e-12);
+            close_to(real(field("sets", "tangent", "1", F64, 3, 0, k), F64), e1[k] / 1.5, 1e-12);
+            close_to(real(field("sets", "origin", "m", F64, 3, 0, k), F64), o[k] + 0.5 * (e1[k] + e2[k]) - c.lo[k], 1e-12);
+        }
+        close_to(real(field("sets", "half", "m", F64, 2, 0, 0), F64), 0.75, 1e-12);
+        close_to(real(field("sets", "half", "m", F64, 2, 0, 1), F64), 0.5, 1e-12);
+        close_to(real(field("sets", "thick", "m", F64, 1, 0, 0), F64), 3 * DX, 1e-12);
+        const uint32_t all = sph_count(sim), across = rows ? 7 : 6, plane = rows ? 35 : 24;
+        assert_int_equal(all, rows ? 35 : 72);
+        for (uint32_t i = 0; i < all; i++) {
+            const sph_particle p = by_id(sim, i);
+            const double x[3] = {p.x[0] - o[0], p.x[1] - o[1], p.x[2] - o[2]}, off = rows ? 0 : 0.5;
+            close_to(0.6 * x[0] + 0.8 * x[1], (i % across + off) * DX, 1e-6);
+            close_to(x[2], (i % plane / across + off) * DX, 1e-6);
+            close_to(0.8 * x[0] - 0.6 * x[1], rows ? 0 : -(i / plane + 0.5) * DX, 1e-6);
+        }
+    }
+}
+#endif
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
+        subject(a_wall_without_a_strength_has_the_usual_one),
+        subject(a_boxs_faces_stand_where_they_should),
+#if SPH_DIM == 2
+        subject(a_segment_looks_to_its_left),
+#elif SPH_DIM == 3
+        subject(a_plane_looks_along_e1_x_e2),
+#endif
         subject(the_preamble_and_every_header_are_as_written_down),
         subject(the_scene_is_the_configuration),
         subject(sets_and_groups_are_those_of_the_scene),
