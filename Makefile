@@ -230,6 +230,7 @@ builds_test_format  := 1d 2f 3f
 builds_test_bounds  := 1d 2f 3f
 builds_test_usage   := 1d 2f 3f
 builds_test_validate := 1d 2f 3f
+builds_test_crossing := 1d 2f 3f
 # of those that a test lists `make test` takes these: each dimension and precision is met; all: TEST_BUILDS="$(BUILDS)"
 TEST_BUILDS ?= 1d 2f 2d 3f
 builds_of = $(or $(builds_$(1)),2f 2d)
