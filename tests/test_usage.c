@@ -208,6 +208,64 @@ static void motions_are_where_the_manual_says(void **state)
     }
 }
 
+/* what a wall's host says of its motion: place (m) and velocity (m/s) from time 0 on, and from `later` on */
+static struct {
+    double x, v, later_x, later_v;
+    uint32_t axis;
+} told;
+static void tell(void *ctx, double t, double *x, double *v)
+{
+    (void)ctx;
+    x[told.axis] = t > 0 ? told.later_x : told.x;
+    v[told.axis] = t > 0 ? told.later_v : told.v;
+}
+/* the domain is 3 long: a place within 6, less than 3 from one step to the next, a velocity below 1e15 */
+static void a_motion_must_be_finite_near_and_no_leap(void **state)
+{
+    static const struct {
+        double x, v;
+        sph_status st;
+        double value;
+    } of[] = {{0, NAN, SPH_NOT_FINITE, 0},  {0, 1e15, SPH_NOT_FINITE, 0}, {0, 9e14, SPH_OK, 0},
+              {NAN, 0, SPH_NOT_FINITE, NAN}, {6, 0, SPH_NOT_FINITE, 6},    {-6, 0, SPH_NOT_FINITE, -6},
+              {3, 0, SPH_MOVED_TOO_FAR, 3},  {-3, 0, SPH_MOVED_TOO_FAR, 3}, {2.99, 0, SPH_OUT_OF_DOMAIN, 0},
+              {-2.99, 0, SPH_OUT_OF_DOMAIN, 0}, {0.5, 3, SPH_OK, 0}};
+    (void)state;
+    for (uint32_t axis = 0; axis < SPH_DIM; axis++)
+        for (uint32_t n = 0; n < sizeof of / sizeof *of; n++) {
+            sph_config c = config();
+            sph_wall w = sph_wall_default();
+            double lo[SPH_DIM] = {0}, hi[SPH_DIM], at[SPH_DIM];
+            uint32_t set;
+            c.max_particles = 2000;
+            c.on_cross = SPH_IGNORE;
+            c.on_leave = SPH_REMOVE;
+            sph_sim *sim = new_sim(&c);
+            for (int k = 0; k < SPH_DIM; k++) {
+                hi[k] = 1;
+                at[k] = 1.7;
+            }
+            w.kind = SPH_WALL_LENNARD_JONES;
+            w.motion = tell;
+            memset(&told, 0, sizeof told);
+            told.axis = axis;
+            told.later_x = of[n].x;
+            told.later_v = of[n].v;
+            must(sim, sph_add_fluid(sim, NULL, &set));
+            must(sim, sph_add_particle(sim, set, at, NULL, 0, NULL));
+            must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, NULL));
+            const sph_status st = sph_step(sim);
+            if (st != of[n].st)
+                fail_msg("place %g, velocity %g: %s", of[n].x, of[n].v, sph_status_text(st));
+            if (st && st != SPH_OUT_OF_DOMAIN) { /* the wall may go so far, but not out of the domain */
+                assert_string_equal(sph_last(sim)->what, "motion of a wall");
+                const double is = sph_last(sim)->value, value = of[n].value;
+                assert_true(value - value != 0 ? is - is != 0 : fabs(is - value) < 1e-6);
+            }
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
@@ -216,6 +274,7 @@ int main(void)
         subject(the_smallest_limit_sets_the_step),
         subject(what_is_refused_between_steps_is_named),
         subject(motions_are_where_the_manual_says),
+        subject(a_motion_must_be_finite_near_and_no_leap),
     };
     return run_subjects("usage", list);
 }
