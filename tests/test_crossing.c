@@ -226,12 +226,51 @@ static void each_is_removed_or_the_first_named(void **state)
     }
 }
 
+/* a gate's time may come in either half of a step: at the step's end none of it is left, one step earlier all */
+static void a_wall_is_gone_at_the_end_of_the_step_that_passes_its_time(void **state)
+{
+    (void)state;
+    for (uint32_t integrator = 0; integrator < SPH_INTEGRATORS; integrator++)
+        for (int quarter = 0; quarter < 4; quarter++)
+            for (uint32_t kind = SPH_WALL_LENNARD_JONES; kind < SPH_WALLS; kind++) {
+                sph_config c = open_config(1, DX);
+                sph_wall w = sph_wall_default();
+                double lo[SPH_DIM] = {0}, hi[SPH_DIM];
+                uint32_t set, group;
+                sph_totals t;
+                c.integrator = integrator;
+                c.dt = 0x1p-10;
+                c.max_particles = 2000;
+                sph_sim *sim = new_sim(&c);
+                for (int k = 0; k < SPH_DIM; k++)
+                    hi[k] = 0.375;
+                w.kind = kind;
+                w.motion = quarter % 2 ? turn : NULL;
+                wall.speed = 0;
+                must(sim, sph_add_fluid(sim, NULL, &set));
+                must(sim, sph_add_box(sim, set, lo, hi, NULL));
+                const uint32_t fluid = sph_count(sim);
+                must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, &group));
+                const uint32_t all = sph_count(sim);
+                must(sim, sph_remove_wall_at(sim, group, (2 + 0.25 * (quarter + 0.5)) * c.dt));
+                for (int step = 1; step <= 4; step++) {
+                    must(sim, sph_step(sim));
+                    sph_get_totals(sim, &t);
+                    if (t.wall != (step <= 2 ? all - fluid : 0) || t.fluid != fluid)
+                        fail_msg("integrator %u, wall %u, quarter %d: %u of the wall after step %d", integrator, kind,
+                                 quarter, t.wall, step);
+                }
+                assert_int_equal(free_sims(NULL), 0);
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
         subject(inspection_finds_who_is_inside),
         subject(each_is_put_back_before_the_face),
         subject(each_is_removed_or_the_first_named),
+        subject(a_wall_is_gone_at_the_end_of_the_step_that_passes_its_time),
     };
     return run_subjects("crossing", list);
 }
