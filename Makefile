@@ -232,6 +232,11 @@ builds_test_oracle  := $(BUILDS)
 builds_test_inspect := 1f 2f 2d 3f
 builds_test_probes  := $(BUILDS)
 builds_test_shifting := $(BUILDS)
+builds_test_format  := 1d 2f 3f
+builds_test_bounds  := 1d 2f 3f
+builds_test_usage   := 1d 2f 3f
+builds_test_validate := 1d 2f 3f
+builds_test_crossing := 1d 2f 3f
 # of those that a test lists `make test` takes these: each dimension and precision is met; all: TEST_BUILDS="$(BUILDS)"
 TEST_BUILDS ?= 1d 2f 2d 3f
 builds_of = $(or $(builds_$(1)),2f 2d)
@@ -320,6 +325,11 @@ tool-test: $(BUILD)/sph
 # the golden runs in one program, for tests/bits.sh
 golden: $(BUILD)/golden
 $(BUILD)/golden: $(BUILD)/obj/tests/golden_main.o $(BUILDS:%=$(BUILD)/obj/%/tests/golden.o) $(LIBS)
+	$(say) link $@
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
+
+# those of some cases (tests/mutants.py)
+$(BUILD)/mutants_golden_%: $(BUILD)/obj/%/tests/mutants_golden.o $(BUILD)/libsph%.a
 	$(say) link $@
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ -o $@
 

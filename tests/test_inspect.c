@@ -201,9 +201,239 @@ static void the_hash_sees_when_a_wall_goes(void **state)
     assert_true(sph_hash(one) == sph_hash(two));
 }
 
+/* ---- against a loop over all pairs, which knows no cells ---- */
+
+static double gap(const sph_config *c, const sph_particle *p, const sph_particle *q)
+{
+    double r2 = 0;
+    for (int k = 0; k < SPH_DIM; k++) {
+        double d = fabs(p->x[k] - q->x[k]);
+        const double length = c->hi[k] - c->lo[k];
+        if (c->face[k][0] == SPH_PERIODIC && d > 0.5 * length)
+            d = length - d;
+        r2 += d * d;
+    }
+    return sqrt(r2);
+}
+
+/* what must be found of particles nearer than 0.3 spacings */
+static sph_finding by_all_pairs(const sph_sim *sim, const sph_config *c)
+{
+    sph_finding f = {.value = 1e30, .particle = SPH_NO_PARTICLE, .other = SPH_NO_PARTICLE, .set = SPH_MAX_SETS};
+    for (uint32_t i = 0; i < sph_count(sim); i++) {
+        sph_particle p, q;
+        double least = 0.3 * DX;
+        uint32_t other = SPH_NO_PARTICLE;
+        assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+        for (uint32_t j = 0; j < sph_count(sim); j++) {
+            assert_int_equal(sph_get(sim, j, &q), SPH_OK);
+            const bool walls = p.role == SPH_ROLE_GHOST && q.role == SPH_ROLE_GHOST;
+            const double r = i == j || walls ? 1e30 : gap(c, &p, &q);
+            if (r < least) {
+                least = r;
+                other = q.id;
+            }
+        }
+        if (other == SPH_NO_PARTICLE)
+            continue;
+        f.count++;
+        f.value = least < f.value ? least : f.value;
+        if (p.id < f.particle) {
+            f.particle = p.id;
+            f.other = other;
+            f.set = p.set;
+        }
+    }
+    return f;
+}
+
+/* n particles anywhere in a domain of odd lengths, periodic along the axes of the bits of `round`, in two fluids */
+static sph_sim *cloud(sph_config *c, uint64_t seed, uint32_t round, uint32_t n)
+{
+    sph_rng rng;
+    uint32_t set[2];
+    *c = open_config(1, DX);
+    sph_rng_seed(&rng, seed, 3);
+    for (int k = 0; k < SPH_DIM; k++) {
+        c->lo[k] = -0.3;
+        c->hi[k] = (SPH_DIM == 1 ? 3.03 : 0.51) + 0.07 * k;
+        c->face[k][0] = c->face[k][1] = round >> k & 1 ? SPH_PERIODIC : SPH_OPEN;
+    }
+    c->max_particles = n;
+    sph_sim *sim = new_sim(c);
+    for (int s = 0; s < 2; s++)
+        must(sim, sph_add_fluid(sim, NULL, &set[s]));
+    for (uint32_t i = 0; i < n; i++) {
+        double x[SPH_DIM];
+        for (int k = 0; k < SPH_DIM; k++)
+            x[k] = c->lo[k] + (c->hi[k] - c->lo[k]) * sph_rng_uniform(&rng);
+        must(sim, sph_add_particle(sim, set[i * 2 / n], x, NULL, 0, NULL));
+    }
+    return sim;
+}
+
+static void coincidence_is_what_all_pairs_say(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 40; seed++) {
+        sph_config c;
+        sph_sim *sim = cloud(&c, seed, (uint32_t)seed % (1u << SPH_DIM), SPH_DIM == 1 ? 20 : SPH_DIM == 2 ? 40 : 120);
+        const sph_finding want = by_all_pairs(sim, &c);
+        inspect(sim);
+        const sph_finding *f = &found[SPH_FINDING_COINCIDENT];
+        only(SPH_FINDING_COINCIDENT, want.count);
+        if (want.count) {
+            close_to(f->value, want.value, 1e-7);
+            close_to(f->limit, 0.3 * DX, 1e-12);
+            assert_int_equal(f->particle, want.particle);
+            assert_int_equal(f->other, want.other);
+            assert_int_equal(f->set, want.set);
+        }
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+/* ---- each finding's numbers ---- */
+
+/* two fluids with sound 10 and 100 and a block of the second one */
+static sph_sim *two_fluids(sph_config *c, uint32_t *set, double top)
+{
+    double lo[SPH_DIM] = {0}, hi[SPH_DIM];
+    sph_sim *sim = new_sim(c);
+    must(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 100}, &set[0]));
+    must(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 10}, &set[1]));
+    for (int k = 0; k < SPH_DIM; k++)
+        hi[k] = k == SPH_DIM - 1 ? top : 0.3;
+    must(sim, sph_add_box(sim, set[1], lo, hi, NULL));
+    return sim;
+}
+
+static void the_fastest_is_told_against_its_own_sound(void **state)
+{
+    sph_config c = open_config(1, DX);
+    uint32_t set[2], first, id;
+    double x[SPH_DIM], v[SPH_DIM] = {0};
+    (void)state;
+    c.max_particles = 100;
+    sph_sim *sim = two_fluids(&c, set, 0.3);
+    for (int k = 0; k < SPH_DIM; k++)
+        x[k] = 0.5;
+    v[SPH_DIM - 1] = -9; /* slow against 100 m/s */
+    must(sim, sph_add_particle(sim, set[0], x, v, 0, NULL));
+    x[0] = 0.7;
+    v[SPH_DIM - 1] = 1.25;
+    must(sim, sph_add_particle(sim, set[1], x, v, 0, &first));
+    x[0] = 0.9;
+    v[0] = 3, v[SPH_DIM - 1] = SPH_DIM == 1 ? 5 : 4;
+    must(sim, sph_add_particle(sim, set[1], x, v, 0, &id));
+    inspect(sim);
+    const sph_finding *f = &found[SPH_FINDING_FAST];
+    assert_int_equal(f->count, 2);
+    assert_int_equal(f->particle, first);
+    assert_int_equal(f->set, set[1]);
+    assert_int_equal(f->other, SPH_NO_PARTICLE);
+    close_to(f->value, 0.5, 1e-6);
+    close_to(f->limit, 0.1, 1e-12);
+}
+
+/* particles of a fluid at height 0.05 .. 0.95 - dx/2 and a wall half a spacing below 0: H between centres, with g along
+   any axis and way */
+static void slow_sound_is_told_by_the_height_of_fall(void **state)
+{
+    (void)state;
+    for (int axis = 0; axis < SPH_DIM; axis++)
+        for (int way = -1; way <= 1; way += 2) {
+            sph_config c = open_config(1, DX);
+            double x[SPH_DIM] = {0};
+            uint32_t set[2];
+            c.max_particles = 10;
+            c.gravity[axis] = 5 * way;
+            sph_sim *sim = new_sim(&c);
+            for (uint32_t s = 0; s < 2; s++)
+                must(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = s ? 12 : 15}, &set[s]));
+            for (int i = 0; i < 5; i++) {
+                x[axis] = 0.2 + 0.25 * ((i * 3) % 5);
+                must(sim, sph_add_particle(sim, set[i > 2], x, NULL, 0, NULL));
+            }
+            inspect(sim);
+            const sph_finding *f = &found[SPH_FINDING_SLOW_SOUND];
+            assert_int_equal(f->count, 2);
+            assert_int_equal(f->set, set[0]);
+            close_to(f->value, 12, 1e-12);
+            close_to(f->limit, 10 * sqrt(5 * 1.0), 1e-6);
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
+static void empty_sets_and_spare_room_are_counted(void **state)
+{
+    sph_config c = open_config(1, DX);
+    double x[SPH_DIM];
+    uint32_t set[4];
+    (void)state;
+    for (uint32_t max = 6; max <= 9; max++) { /* three particles: 6 is twice as many, 7 is one more */
+        c.max_particles = max;
+        sph_sim *sim = new_sim(&c);
+        for (int s = 0; s < 4; s++)
+            must(sim, sph_add_fluid(sim, NULL, &set[s]));
+        for (int i = 0; i < 3; i++) {
+            for (int k = 0; k < SPH_DIM; k++)
+                x[k] = 0.2 + 0.2 * i;
+            must(sim, sph_add_particle(sim, set[i == 2 ? 2 : 0], x, NULL, 0, NULL));
+        }
+        inspect(sim);
+        assert_int_equal(found[SPH_FINDING_EMPTY_SET].count, 2);
+        assert_int_equal(found[SPH_FINDING_EMPTY_SET].set, set[1]);
+        close_to(found[SPH_FINDING_EMPTY_SET].value, 0, 0);
+        close_to(found[SPH_FINDING_EMPTY_SET].limit, 1, 0);
+        assert_int_equal(found[SPH_FINDING_SPARE].count, max >= 8 ? max : 0);
+        if (max >= 8) {
+            close_to(found[SPH_FINDING_SPARE].value, 3, 0);
+            close_to(found[SPH_FINDING_SPARE].limit, 0.5 * max, 0);
+            assert_int_equal(found[SPH_FINDING_SPARE].particle, SPH_NO_PARTICLE);
+        }
+    }
+}
+
+static void the_deepest_in_a_wall_is_told(void **state)
+{
+    sph_config c = open_config(1, DX);
+    sph_wall w = sph_wall_default();
+    double lo[SPH_DIM] = {0}, hi[SPH_DIM], x[SPH_DIM];
+    uint32_t set, ids[4];
+    (void)state;
+    c.max_particles = 3000;
+    sph_sim *sim = new_sim(&c);
+    for (int k = 0; k < SPH_DIM; k++) {
+        hi[k] = 1;
+        x[k] = 0.52;
+    }
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    w.layers = 3;
+    must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0) | SPH_HIGH(0), true, NULL));
+    const double at[4] = {0.3, -0.11, 1.21, -0.31}; /* in the water, two in walls, one behind a wall of three layers */
+    for (int i = 0; i < 4; i++) {
+        x[0] = at[i];
+        must(sim, sph_add_particle(sim, set, x, NULL, 0, &ids[i]));
+    }
+    inspect(sim);
+    const sph_finding *f = &found[SPH_FINDING_IN_WALL];
+    assert_int_equal(f->count, 2);
+    assert_int_equal(f->particle, ids[1]);
+    close_to(f->value, 0.21, 1e-6);
+    close_to(f->limit, 0, 0);
+    assert_int_equal(sph_inspect(sim, NULL, NULL), SPH_BAD_ARGUMENT);
+    assert_string_equal(sph_last(sim)->what, "fn");
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
+        subject(coincidence_is_what_all_pairs_say),
+        subject(the_fastest_is_told_against_its_own_sound),
+        subject(slow_sound_is_told_by_the_height_of_fall),
+        subject(empty_sets_and_spare_room_are_counted),
+        subject(the_deepest_in_a_wall_is_told),
         subject(a_sound_scene_has_no_findings),
         subject(the_same_box_twice_is_found),
         subject(coincidence_is_seen_across_a_seam),
