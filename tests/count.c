@@ -2,10 +2,9 @@
 /* count.c: runs one set-up for some steps under an instruction counter (count.sh) and prints the particle-steps it
    made: of every particle, walls too, after each step. Compiled for each build.
 
-     count SETUP N STEPS    bench: the dam break of bench.c; corrected, large_eddies: the same with corrected
-                            gradients, with a viscous stress of large eddies; elastic, total: its block of a
-                            solid; default, no_books: the scene dam_break or dam_break_3d as it is, and without
-                            books */
+     count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
+                            total: its block of a solid; default, no_books, large_eddies: the scene dam_break or
+                            dam_break_3d as it is, without books, with large eddies */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 
@@ -19,17 +18,17 @@ static void correct(sph_config *c)
 #endif
 }
 
-static void large_eddies(sph_config *c)
+static void large_eddies(double *p)
 {
 #ifdef SPH_WITH_SHEAR
-    c->shear = SPH_SMAGORINSKY;
+    p[SCENE_OF_shear] = SPH_SMAGORINSKY;
 #else
-    (void)c;
+    (void)p;
 #endif
 }
 
-/* a scene with the defaults of its table, but for n and books */
-static tank scene_tank(const char *name, uint32_t n, bool books)
+/* a scene with the defaults of its table, but for n, books and large eddies */
+static tank scene_tank(const char *name, uint32_t n, bool books, bool eddies)
 {
     static double p[64]; /* motions of a scene would read it */
     const scene *s = NULL;
@@ -41,6 +40,8 @@ static tank scene_tank(const char *name, uint32_t n, bool books)
     for (uint32_t i = 0; i < s->params; i++)
         p[i] = strcmp(s->param[i].name, "n") == 0 ? n : s->param[i].value;
     p[SCENE_OF_books] = books;
+    if (eddies)
+        large_eddies(p);
     s->configure(p, &c);
     t.bytes = sph_arena_bytes(&c);
     t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
@@ -57,7 +58,7 @@ int main(int argc, char **argv)
     unsigned long long done = 0;
     tank t;
     if (argc != 4) {
-        fprintf(stderr, "usage: count bench|corrected|large_eddies|elastic|total|default|no_books N STEPS\n");
+        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);
@@ -65,14 +66,12 @@ int main(int argc, char **argv)
         t = fill(n, NULL, NULL, NULL);
     else if (strcmp(argv[1], "corrected") == 0)
         t = fill_as(n, NULL, NULL, NULL, correct);
-    else if (strcmp(argv[1], "large_eddies") == 0)
-        t = fill_as(n, NULL, NULL, NULL, large_eddies);
     else if (strcmp(argv[1], "elastic") == 0)
         t = block(n, SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, false);
     else if (strcmp(argv[1], "total") == 0)
         t = block(n, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, false);
     else
-        t = scene_tank(dam_break, n, strcmp(argv[1], "default") == 0);
+        t = scene_tank(dam_break, n, strcmp(argv[1], "no_books") != 0, strcmp(argv[1], "large_eddies") == 0);
     for (uint32_t k = 0; k < steps; k++) {
         check(t.sim, sph_step(t.sim), "step");
         done += sph_count(t.sim);
