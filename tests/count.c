@@ -2,10 +2,9 @@
 /* count.c: runs one set-up for some steps under an instruction counter (count.sh) and prints the particle-steps it
    made: of every particle, walls too, after each step. Compiled for each build.
 
-     count SETUP N STEPS    bench: the dam break of bench.c; corrected, large_eddies: the same with corrected
-                            gradients, with a viscous stress of large eddies; elastic, total: its block of a
-                            solid; default, no_books: the scene dam_break or dam_break_3d as it is, and without
-                            books; shifting: as it is, with its particles shifted */
+     count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
+                            total: its block of a solid; default, no_books, large_eddies, shifting: the scene dam_break
+                            or dam_break_3d as it is, without books, with large eddies, with its particles shifted */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 
@@ -19,12 +18,12 @@ static void correct(sph_config *c)
 #endif
 }
 
-static void large_eddies(sph_config *c)
+static void large_eddies(double *p)
 {
 #ifdef SPH_WITH_SHEAR
-    c->shear = SPH_SMAGORINSKY;
+    p[SCENE_OF_shear] = SPH_SMAGORINSKY;
 #else
-    (void)c;
+    (void)p;
 #endif
 }
 
@@ -44,6 +43,8 @@ static tank scene_tank(const char *name, uint32_t n, const char *how)
 #ifdef SPH_WITH_SHIFTING /* as above */
     p[SCENE_OF_shifting] = strcmp(how, "shifting") == 0 ? 0.5 : 0;
 #endif
+    if (strcmp(how, "large_eddies") == 0)
+        large_eddies(p);
     s->configure(p, &c);
     t.bytes = sph_arena_bytes(&c);
     t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
@@ -60,7 +61,7 @@ int main(int argc, char **argv)
     unsigned long long done = 0;
     tank t;
     if (argc != 4) {
-        fprintf(stderr, "usage: count bench|corrected|large_eddies|elastic|total|default|no_books|shifting N STEPS\n");
+        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);
@@ -68,8 +69,6 @@ int main(int argc, char **argv)
         t = fill(n, NULL, NULL, NULL);
     else if (strcmp(argv[1], "corrected") == 0)
         t = fill_as(n, NULL, NULL, NULL, correct);
-    else if (strcmp(argv[1], "large_eddies") == 0)
-        t = fill_as(n, NULL, NULL, NULL, large_eddies);
     else if (strcmp(argv[1], "elastic") == 0)
         t = block(n, SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, false);
     else if (strcmp(argv[1], "total") == 0)

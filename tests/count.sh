@@ -32,10 +32,10 @@ bench_2d_f64|2d|bench|60|2|8|1.01
 bench_3d_f32|3f|bench|16|1|4|1.01
 corrected_2d_f32|2f|corrected|60|2|8|1.80|bench_2d_f32
 corrected_3d_f32|3f|corrected|16|1|4|1.80|bench_3d_f32
-large_eddies_2d_f32|2f|large_eddies|60|2|8|1.50|bench_2d_f32
 elastic_2d_f32|2f|elastic|60|2|8|1.01
 total_2d_f32|2f|total|60|2|8|1.01
 dam_break_2d|2f|default|60|2|8|0.75
+large_eddies_2d|2f|large_eddies|60|2|8|1.50|dam_break_2d
 dam_break_2d_no_books|2f|no_books|60|2|8|1.01
 dam_break_3d|3f|default|16|1|3|0.75
 dam_break_3d_no_books|3f|no_books|16|1|3|1.01

@@ -350,8 +350,8 @@ static void add_piece(void *ctx, const char *name, size_t bytes)
 static bool usable(uint32_t use)
 {
     const bool solid = use & SPH_USE_SOLID;
-    if (solid ? use & (SPH_USE_FILTER | SPH_USE_SHIFTING | SPH_USE_SHEAR)
-              : use & (SPH_USE_CORRECTED | SPH_USE_TOTAL | SPH_USE_YIELD | SPH_USE_DAMAGE))
+    const uint32_t of_solids = SPH_USE_CORRECTED | SPH_USE_TOTAL | SPH_USE_YIELD | SPH_USE_DAMAGE;
+    if (use & (solid ? SPH_USE_FILTER | SPH_USE_SHIFTING | SPH_USE_SHEAR : of_solids))
         return false;
     if (!(use & SPH_USE_CORRECTED) && use & (SPH_USE_TOTAL | SPH_USE_QUADRATURE))
         return false;

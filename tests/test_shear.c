@@ -93,7 +93,8 @@ static void corrected_gradients_of_linear_velocities_are_exact(void **state)
     (void)state;
     sph_rng_seed(&rng, 6, 6);
     for (int trial = 0; trial < 36; trial++) {
-        const uint32_t shear = SPH_NESTED + (uint32_t)trial % 3, gradient = trial / 3 % 2 ? SPH_RENORMALISED : SPH_BONET_LOK;
+        const uint32_t shear = SPH_NESTED + (uint32_t)trial % 3;
+        const uint32_t gradient = trial / 3 % 2 ? SPH_RENORMALISED : SPH_BONET_LOK;
         sph_config c = bare_config(shear, schemes[trial / 6 % 2], gradient);
         double a[3][3] = {{0}}, scale, force[3];
         c.smagorinsky = 1.5;
@@ -131,7 +132,7 @@ static void the_stress_takes_energy_and_keeps_momentum(void **state)
     (void)state;
     for (uint32_t trial = 0; trial < 3 * 3 * 2 * 3 * 2; trial++) {
         uint32_t q = trial, set;
-        const uint32_t shear = SPH_NESTED + q % 3, gradient = (q /= 3) % 3, face = (q /= 3 * 1) / 3 % 3;
+        const uint32_t shear = SPH_NESTED + q % 3, gradient = (q /= 3) % 3, face = (q /= 3) % 3;
         sph_config c = bare_config(shear, schemes[trial % 2], gradient);
         double scale, force[3];
         c.subgrid = trial & 1 ? 5 : 0;

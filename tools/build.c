@@ -79,7 +79,8 @@ static double end(const build_sim *s) { return s->scene->end(s->p); }
 static double time_of(const build_sim *s) { return sph_time(s->sim); }
 static void history(const build_sim *s, double *row) { s->scene->history(s->sim, s->p, row); }
 
-/* half a spacing below the lowest fluid within a spacing of the column above x; the domain's low end if there is none */
+/* half a spacing below the lowest fluid within a spacing of the column above x; the domain's low end if there is none
+   */
 static double bed_below(const build_sim *s, const double *x)
 {
     const uint32_t up = SPH_DIM - 1;
@@ -176,5 +177,5 @@ static sph_status inspect(build_sim *s, void (*fn)(void *ctx, const sph_finding 
 #define build_table SPH_NAME(build_table)
 extern const build build_table;
 const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,  time_of, history, gauge,
-                           probe,   totals,     info,      usage,      count,     hash,       last,      arena, dump, restore,
-                           inspect};
+                           probe,   totals,     info,      usage,      count,     hash,  last, arena,   dump,
+                           restore, inspect};

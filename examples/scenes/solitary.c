@@ -2,7 +2,8 @@
 /* solitary.c: a solitary wave in a long tank: it goes along, runs up the wall at the end (Gray 2001 section 3.1) or
    comes in again at the other end (Wickramarachchi 2009 section 6.4). Starts:
      exact   the exact wave of incompressible water (soliton.h), with its velocities and its pressure
-     kdv     eta = H/cosh^2(sqrt(3 H/(4 D^3)) (x - x0)) (Gray 3.2), u = eta sqrt(g/D) at every depth, hydrostatic pressure
+     kdv     eta = H/cosh^2(sqrt(3 H/(4 D^3)) (x - x0)) (Gray 3.2), u = eta sqrt(g/D) at every depth, pressure
+             hydrostatic
      gray    the same on a square lattice of which what stands above the surface is left out, with constant density
      mound   water at rest under y = D + b exp(-k x) (Wickramarachchi 6.21), hydrostatic pressure
    But for `gray` the lattice follows the surface: columns of n particles, so wide that every particle has the same mass
@@ -184,9 +185,9 @@ static double wave_speed(const double *p)
 static double end(const double *p) { return p[TRAVEL] * p[DEPTH] / wave_speed(p); }
 
 static const char *const column[] = {
-    "time_s",      "crest_x_m",     "crest_x_exact_m", "crest_m",     "crest_surface_m", "speed_m/s",     "speed_exact_m/s",
-    "left_wall_m", "right_wall_m", "kinetic_J/m",     "potential_J/m", "internal_J/m",  "dissipated_J/m", "diffused_J/m",
-    "balance_J/m"};
+    "time_s",          "crest_x_m",   "crest_x_exact_m", "crest_m",     "crest_surface_m", "speed_m/s",
+    "speed_exact_m/s", "left_wall_m", "right_wall_m",    "kinetic_J/m", "potential_J/m",   "internal_J/m",
+    "dissipated_J/m",  "diffused_J/m", "balance_J/m"};
 
 /* a column's height from its mass, over the bed (m) */
 static double risen(const double *p, double mass) { return mass / pressed(p, mass / p[DEPTH] - 1); }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* limits.c: what each limit of the time step allows (Gray 2001 eq 2.30; Wickramarachchi 2009 eqs 3.88-3.90):
      courant    cfl h/(c + h max|mu|)       c: the fastest sound of any set; of solids with 4 mu/3 rho0 (Gray 5.52)
-     viscous    viscous_factor h^2/nu       nu of Morris, of a viscous stress (large eddies: shear.c), or alpha c0 h/(2 (DIM + 2)) of the artificial viscosity
+     viscous    viscous_factor h^2/nu       nu of Morris, or alpha c0 h/(2 (DIM + 2)) of the artificial viscosity, and
+                nu of a viscous stress (its large eddies: shear.c)
      force      force_factor sqrt(h/max|a|) gravity  gravity_factor h/(c + sqrt(g h))
      diffusion  f h/(delta c0)              c0: the fastest of the bodies' sets, as both are made with it; f: 7/8 of
                 what the integrator stands (sph/factors.c): 1/8 (Wendland C4: 0.095), twice that in Runge-Kutta, half of
