@@ -3,10 +3,10 @@
 
    Every sum over neighbours runs in SPH_LANES = 8 partial sums: candidate number k of a particle (in
    three dimensions: neighbour number k) goes to lane k mod 8, and the lanes are folded in one fixed
-   order. A machine handles the eight lanes in groups of W (1, 2, 4 or 8): the grouping changes who computes, never what. The pair
-   formulas are written once, on the type `vreal`, which is a vector of W reals, or a plain real
-   where W is 1; in that case pairs out of range are skipped, which adds no bit because the
-   vector form adds a true zero there.
+   order. A machine handles the eight lanes in groups of W (1, 2, 4 or 8): the grouping changes who
+   computes, never what. The pair formulas are written once, on the type `vreal`, which is a vector of
+   W reals, or a plain real where W is 1; in that case pairs out of range are skipped, which adds no
+   bit because the vector form adds a true zero there.
 
    Only + - * / and the square root are used, element by element, as IEEE 754 defines them. */
 #ifndef SPH_LANES_H
