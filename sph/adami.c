@@ -25,7 +25,7 @@ static bool adami_home(const sph_sim *sim, const sph_set *s)
 SPH_INLINE void adami_pair(const void *what, uint32_t j, vreal *s)
 {
     const sph_gather *g = what;
-    const sph_tile *f = g->tile;
+    const sph_near_tile *f = g->tile;
     const bool ratio = *(const bool *)g->own;
     vreal dx[SPH_DIM];
     sph_gather_distance(g, j, dx);
@@ -71,7 +71,8 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {adami_home, SPH_BODIES, SPH_SUM_MASK(0, SUMS), false, 0, adami_tile, adami_finish, 0};
+    static const sph_sweep w = {adami_home,   SPH_BODIES, SPH_SUM_MASK(0, SUMS), false, 0, adami_tile,
+                                adami_finish, 0,          0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 

@@ -62,8 +62,8 @@ SPH_INLINE void correction_homes(const sph_sim *sim, sph_thread *t, uint32_t hom
             own.home = sph_spread_reference(sph_reference_homes_of(sim, t), h);
             own.tile = sph_reference_of(sim, t);
         }
-        const sph_gather g = {t, tile, h, kernel, v_set(sim->fac.inv_h), &own};
-        sph_sum_home(t, h, tile->n, sums, correction_pair, &g);
+        const sph_gather g = {t, sph_near_of(t, tile), h, kernel, v_set(sim->fac.inv_h), &own};
+        sph_sum_home(sim, t, tile, h, sums, correction_pair, &g);
     }
 }
 
@@ -146,7 +146,8 @@ static void correction_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          total ? 1u << SPH_COLUMN_reference : 0,
                          correction_tile,
                          correction_finish,
-                         0};
+                         0,
+                         total ? 1 + SPH_COLUMN_reference : 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool corrects(const sph_sim *sim) { return sph_corrects(&sim->cfg); }

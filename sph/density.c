@@ -35,7 +35,7 @@ static void summation_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void summation_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     static const sph_sweep w = {sph_body_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(SUM_MW, 2), true, 0,
-                                density_tile, summation_finish, 0};
+                                density_tile, summation_finish, 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool sums_density(const sph_sim *sim) { return sph_sums_density(&sim->cfg); }
@@ -64,9 +64,9 @@ static void shepard_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint
     (void)role;
     for (uint32_t h = 0; h < homes; h++) {
         const sph_set *set = &sim->set[t->home_set[h]];
-        const sph_gather g = {t, &t->bodies, h, sim->cfg.kernel, v_set(sim->fac.inv_h), &set->rho0_r};
+        const sph_gather g = {t, sph_near_of(t, &t->bodies), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &set->rho0_r};
         if (!SPH_WITH_SEVERAL_FLUIDS || !sim->mixed || t->of->kin == set->kin)
-            sph_sum_home(t, h, t->bodies.n, SPH_SUM_MASK(SUM_MW, 2), shepard_pair, &g);
+            sph_sum_home(sim, t, &t->bodies, h, SPH_SUM_MASK(SUM_MW, 2), shepard_pair, &g);
     }
 }
 static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -78,7 +78,7 @@ static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(SUM_MW, 2), true, 0, shepard_tile, shepard_finish,
-                         SPH_WITH_SEVERAL_FLUIDS && sim->mixed ? SPH_APART_KIN : 0};
+                         SPH_WITH_SEVERAL_FLUIDS && sim->mixed ? SPH_APART_KIN : 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, filters_now};

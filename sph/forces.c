@@ -36,7 +36,7 @@ SPH_OBJECT(forces)
 typedef struct at_home {
     const sph_choice *c;
     const sph_factors *f;
-    const sph_tile *tile;
+    const sph_near_tile *tile;
     const sph_mirror_tile *mirror;
     const sph_stress_tile *stress;
     const sph_reference_tile *reference;
@@ -65,7 +65,7 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
         for (int k = 0; k < SPH_DIM; k++)
             p->kx[k] = v_where(~p->apart, to[k]);
     }
-    if (!sph_within(k2, o->f->reach2) || (SPH_HAS_FLUID_GRADIENT && o->c->gradient && sph_all_beyond(k2, o->f->reach2)))
+    if (!sph_within(k2, o->f->reach2))
         return false;
     p->q = v_sqrt(k2) * o->f->inv_h;
     SPH_UNROLL
@@ -161,18 +161,19 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
                            bool wall)
 {
     const sph_home home = sph_spread_home(&t->home, h);
-    at_home o = {.c = c, .f = f, .tile = wall ? &t->ghosts : &t->bodies, .home = &home};
+    const sph_tile *const tile = wall ? &t->ghosts : &t->bodies;
+    at_home o = {.c = c, .f = f, .tile = sph_near_of(t, tile), .home = &home};
     if (SPH_HAS_LAYERED_WALLS && wall)
         o.mirror = sph_mirror_of(sim, t);
     sph_gradient_home gradient = {{v_set(0)}, {v_set(0)}, v_set(0)};
     o.gradient = &gradient;
     if (SPH_HAS_FLUID_GRADIENT && c->gradient) {
-        o.corrected = sph_columns_of(sim, t, SPH_COLUMN_gradient);
+        o.corrected = sph_near_columns_of(sim, t, SPH_COLUMN_gradient);
         gradient = sph_spread_gradient(c, sim, t, h);
     }
     sph_shear_home shear;
     if (SPH_WITH_SHEAR && c->shear) {
-        o.sheared = sph_columns_of(sim, t, SPH_COLUMN_shear);
+        o.sheared = sph_near_columns_of(sim, t, SPH_COLUMN_shear);
         shear = sph_spread_shear(sim, t, h);
         o.shear = &shear;
     }
@@ -193,11 +194,11 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
     }
     const uint32_t sums = sums_of(c, wall);
     if (SPH_SMALL)
-        sph_sum_home(t, h, o.tile->n, sums, pair_either, &o);
+        sph_sum_home(sim, t, tile, h, sums, pair_either, &o);
     else if (wall)
-        sph_sum_home(t, h, o.tile->n, sums, pair_ghosts, &o);
+        sph_sum_home(sim, t, tile, h, sums, pair_ghosts, &o);
     else
-        sph_sum_home(t, h, o.tile->n, sums, pair_bodies, &o);
+        sph_sum_home(sim, t, tile, h, sums, pair_bodies, &o);
 }
 
 /* ---- general forms: every choice read at run time ---- */
@@ -734,7 +735,8 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          columns_of(&c),
                          force_tile,
                          force_finish,
-                         SPH_HAS_APART ? kept_apart(sim) : 0};
+                         SPH_HAS_APART ? kept_apart(sim) : 0,
+                         c.total ? 1 + SPH_COLUMN_reference : 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 

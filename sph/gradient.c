@@ -29,22 +29,15 @@ void sph_load_gradient(const sph_candidates *r, sph_real *to, uint32_t row)
     }
 }
 
-typedef struct gradient_scene {
-    bool weak;
-    sph_real reach2;
-} gradient_scene;
-
 /* the tile's part of -M */
 SPH_INLINE void gradient_pair(const void *what, uint32_t j, vreal *s)
 {
     const sph_gather *g = what;
-    const gradient_scene *const own = g->own;
+    const bool weak = *(const bool *)g->own;
     vreal dx[SPH_DIM];
     sph_gather_distance(g, j, dx);
-    if (sph_all_beyond(sph_dot(dx, dx), own->reach2))
-        return;
     vreal mg = sph_gather_slope(g, dx) * v_load(g->tile->m + j);
-    if (own->weak)
+    if (weak)
         mg = mg * v_load(g->tile->inv_rho + j);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
@@ -54,12 +47,13 @@ SPH_INLINE void gradient_pair(const void *what, uint32_t j, vreal *s)
 }
 static void gradient_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    const gradient_scene own = {sph_weak_scheme(sim->cfg.scheme), sim->fac.reach2}, standard = {false, own.reach2};
+    static const bool standard = false;
+    const bool weak = sph_weak_scheme(sim->cfg.scheme);
     const sph_tile *const tile = sph_tile_of(t, role);
-    if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && !own.weak)
+    if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && !weak)
         sph_gather_by(SPH_WENDLAND_C2, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &standard);
     else
-        sph_gather_by(sim->cfg.kernel, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &own);
+        sph_gather_by(sim->cfg.kernel, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &weak);
 }
 
 static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -79,7 +73,7 @@ static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void gradient_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_sweep w = {sph_body_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(0, SPH_NT),
-                         sph_weak_scheme(sim->cfg.scheme), 0, gradient_tile, gradient_finish, 0};
+                         sph_weak_scheme(sim->cfg.scheme), 0, gradient_tile, gradient_finish, 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool corrects_fluids(const sph_sim *sim) { return sph_corrects_fluids(&sim->cfg); }

@@ -50,13 +50,6 @@ SPH_INLINE void sph_symmetric_times(const vreal *t, const vreal *x, vreal *y)
     }
 }
 
-/* Whether no pair of a group is in reach: all terms are 0 there. In 3-D, where seven groups of ten are beyond, a branch
-   takes 37 % off the instructions of a step and 28 % off its time; in 2-D 10 % off those and nothing off this. */
-SPH_INLINE bool sph_all_beyond(vreal r2, sph_real reach2)
-{
-    return SPH_DIM == 3 && !v_any(v_less(r2, v_set(reach2)));
-}
-
 /* what continuity and forces take for x_ij; `row`: the candidates' T or B */
 SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_home *h, const sph_real *row,
                                        sph_near *p)
@@ -70,7 +63,7 @@ SPH_INLINE void sph_corrected_distance(const sph_choice *c, const sph_gradient_h
         return;
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_NT; k++)
-        b[k] = p->wall ? h->n[k] : (h->n[k] + v_load(row + k * SPH_TILE_ROOM + p->j)) * h->share;
+        b[k] = p->wall ? h->n[k] : (h->n[k] + v_load(row + k * SPH_NEAR_ROOM + p->j)) * h->share;
     sph_symmetric_times(b, p->dx, p->ex);
     p->vc = p->ve = sph_dot(p->dv, p->ex);
 }
@@ -85,7 +78,7 @@ SPH_INLINE void sph_corrected_pressure(const sph_choice *c, const sph_home *o, c
     vreal sum[SPH_NT], a[SPH_DIM];
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_NT; k++)
-        sum[k] = h->t[k] + (p->wall ? k < SPH_DIM ? p->press : v_set(0) : v_load(row + k * SPH_TILE_ROOM + p->j));
+        sum[k] = h->t[k] + (p->wall ? k < SPH_DIM ? p->press : v_set(0) : v_load(row + k * SPH_NEAR_ROOM + p->j));
     sph_symmetric_times(sum, p->dx, a);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* lanes.h: the eight virtual lanes. This is the one file that knows about vector registers.
 
-   Every sum over neighbours runs in SPH_LANES = 8 partial sums: neighbour number k of a particle
-   goes to lane k mod 8, and the lanes are folded in one fixed order. A machine handles the eight
-   lanes in groups of W (1, 2, 4 or 8): the grouping changes who computes, never what. The pair
-   formulas are written once, on the type `vreal`, which is a vector of W reals, or a plain real
-   where W is 1; in that case pairs out of range are skipped, which adds no bit because the
-   vector form adds a true zero there.
+   Every sum over neighbours runs in SPH_LANES = 8 partial sums: candidate number k of a particle (in
+   three dimensions: neighbour number k) goes to lane k mod 8, and the lanes are folded in one fixed
+   order. A machine handles the eight lanes in groups of W (1, 2, 4 or 8): the grouping changes who
+   computes, never what. The pair formulas are written once, on the type `vreal`, which is a vector of
+   W reals, or a plain real where W is 1; in that case pairs out of range are skipped, which adds no
+   bit because the vector form adds a true zero there.
 
    Only + - * / and the square root are used, element by element, as IEEE 754 defines them. */
 #ifndef SPH_LANES_H
@@ -134,16 +134,64 @@ SPH_INLINE vint v_equal(vreal a, vreal b) { return -(vint)!(a < b || b < a); }
 SPH_INLINE vreal v_select(vint m, vreal a, vreal b) { return m ? a : b; }
 #endif
 
-/* whether a mask holds in any lane */
-SPH_INLINE bool v_any(vint m)
+/* bit l: whether a mask holds in lane l */
+#if SPH_SCALAR
+SPH_INLINE uint32_t v_bits(vint m) { return (uint32_t)m & 1; }
+#elif defined(__SSE2__) && !SPH_DOUBLE && SPH_W == 4
+SPH_INLINE uint32_t v_bits(vint m) { return (uint32_t)__builtin_ia32_movmskps((vreal)m); }
+#elif defined(__SSE2__) && !SPH_DOUBLE && SPH_W == 8
+SPH_INLINE uint32_t v_bits(vint m) { return (uint32_t)__builtin_ia32_movmskps256((vreal)m); }
+#elif defined(__SSE2__) && SPH_DOUBLE && SPH_W == 2
+SPH_INLINE uint32_t v_bits(vint m) { return (uint32_t)__builtin_ia32_movmskpd((vreal)m); }
+#elif defined(__SSE2__) && SPH_DOUBLE && SPH_W == 4
+SPH_INLINE uint32_t v_bits(vint m) { return (uint32_t)__builtin_ia32_movmskpd256((vreal)m); }
+#else
+SPH_INLINE uint32_t v_bits(vint m)
 {
-    uint64_t w[(sizeof m + 7) / 8] = {0}, any = 0;
-    memcpy(w, &m, sizeof m);
+    uint32_t bits = 0;
     SPH_UNROLL
-    for (uint32_t k = 0; k < sizeof w / sizeof *w; k++)
-        any |= w[k];
-    return any != 0;
+    for (int l = 0; l < SPH_W; l++)
+        bits |= (uint32_t)(m[l] & 1) << l;
+    return bits;
 }
+#endif
+
+/* Four records side by side become n <= 4 columns: element k of record l goes to place l of column k. */
+#if !SPH_SCALAR && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#define SPH_SHUFFLES 1
+#endif
+#endif
+typedef const sph_real *const sph_four_records[4];
+typedef sph_real *const sph_four_columns[4];
+#ifdef SPH_SHUFFLES
+typedef sph_real vquad __attribute__((vector_size(4 * SPH_REAL_BYTES)));
+SPH_INLINE void v_turn(sph_four_records r, uint32_t from, sph_four_columns to, uint32_t n)
+{
+    vquad a, b, c, d;
+    memcpy(&a, r[0] + from, sizeof a);
+    memcpy(&b, r[1] + from, sizeof b);
+    memcpy(&c, r[2] + from, sizeof c);
+    memcpy(&d, r[3] + from, sizeof d);
+    const vquad ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const vquad ab2 = __builtin_shufflevector(a, b, 2, 6, 3, 7), cd2 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    const vquad turned[4] = {
+        __builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
+        __builtin_shufflevector(ab2, cd2, 0, 1, 4, 5), __builtin_shufflevector(ab2, cd2, 2, 3, 6, 7)};
+    SPH_UNROLL
+    for (uint32_t k = 0; k < n; k++)
+        memcpy(to[k], &turned[k], sizeof turned[k]);
+}
+#else
+SPH_INLINE void v_turn(sph_four_records r, uint32_t from, sph_four_columns to, uint32_t n)
+{
+    SPH_UNROLL
+    for (uint32_t k = 0; k < n; k++)
+        SPH_UNROLL
+        for (uint32_t l = 0; l < 4; l++)
+            to[k][l] = r[l][from + k];
+}
+#endif
 
 #define SPH_NV (SPH_LANES / SPH_W) /* vectors that make up the eight lanes */
 

@@ -44,12 +44,13 @@ static void put(layout *l, size_t at, void *p)
 static uint32_t extra_reals(const sph_config *c, uint32_t *at)
 {
     uint32_t reals = 0, set = 0;
+    const uint32_t near = SPH_SIFTS ? SPH_NEAR_ROOM : 0;
     (void)c;
 #define PLACE(name, ghosts, rows, knob, when)                                                                      \
     if (at)                                                                                                        \
         at[set] = reals;                                                                                           \
     set++;                                                                                                         \
-    reals += (knob) && (when) ? (rows) * (SPH_TILE_ROOM + ((ghosts) ? 0 : SPH_HOME_ROOM)) : 0;
+    reals += (knob) && (when) ? (rows) * (SPH_TILE_ROOM + ((ghosts) ? 0 : SPH_HOME_ROOM) + near) : 0;
     SPH_COLUMN_SETS(PLACE)
 #undef PLACE
     return reals;

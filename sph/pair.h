@@ -20,9 +20,9 @@
 /* A pair function adds what candidates j .. j + SPH_W - 1 of a tile give to the sums s of a home. */
 typedef void (*sph_pair_fn)(const void *what, uint32_t j, vreal *s);
 
-/* One home over one tile of n candidates: the sums of the mask `sums` (bits 1 << row) go through registers. Candidate
+/* One home over n candidates: the sums of the mask `sums` (bits 1 << row) go through registers. Candidate
    k adds to lane k mod 8, in order. Always inlined, like the function that it is given, so that no call is left. */
-SPH_INLINE void sph_sum_home(sph_thread *t, uint32_t h, uint32_t n, uint32_t sums, sph_pair_fn pair, const void *what)
+SPH_INLINE void sph_sum_lanes(sph_thread *t, uint32_t h, uint32_t n, uint32_t sums, sph_pair_fn pair, const void *what)
 {
     vreal s[SPH_AT_ONCE][SPH_SUMS];
     SPH_UNROLL
@@ -51,12 +51,36 @@ SPH_INLINE void sph_sum_home(sph_thread *t, uint32_t h, uint32_t n, uint32_t sum
     }
 }
 
+/* what a pair function reads of a tile: its candidates, or those of them that are neighbours */
+SPH_INLINE const sph_near_tile *sph_near_of(const sph_thread *t, const sph_tile *tile)
+{
+#if SPH_SIFTS
+    (void)tile;
+    return &t->sifted.near;
+#else
+    (void)t;
+    return tile;
+#endif
+}
+/* One home over one tile. `what` may point to sph_near_of the tile and to sph_near_columns_of it. */
+SPH_INLINE void sph_sum_home(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t h, uint32_t sums,
+                             sph_pair_fn pair, const void *what)
+{
+    if (!SPH_SIFTS) {
+        sph_sum_lanes(t, h, tile->n, sums, pair, what);
+        return;
+    }
+    const uint32_t found = sph_find_neighbours(sim, t, tile, h);
+    for (uint32_t from = 0; from < found; from += SPH_NEAR_ROOM)
+        sph_sum_lanes(t, h, sph_take_neighbours(sim, t, tile, from, found), sums, pair, what);
+}
+
 /* ---- gathers: sums over neighbours beside the forces ---- */
 
 /* what a gather's pair function gets: home h, the tile, and what the module wants to know of its scene */
 typedef struct sph_gather {
     const sph_thread *t;
-    const sph_tile *tile;
+    const sph_near_tile *tile;
     uint32_t h, kernel;
     vreal inv_h;
     const void *own;
@@ -85,8 +109,8 @@ SPH_INLINE void sph_gather_by(uint32_t kernel, const sph_sim *sim, sph_thread *t
                               uint32_t sums, sph_pair_fn pair, const void *own)
 {
     for (uint32_t h = 0; h < homes; h++) {
-        const sph_gather g = {t, tile, h, kernel, v_set(sim->fac.inv_h), own};
-        sph_sum_home(t, h, tile->n, sums, pair, &g);
+        const sph_gather g = {t, sph_near_of(t, tile), h, kernel, v_set(sim->fac.inv_h), own};
+        sph_sum_home(sim, t, tile, h, sums, pair, &g);
     }
 }
 SPH_INLINE void sph_gather_tile(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t homes, uint32_t sums,

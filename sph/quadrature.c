@@ -82,20 +82,20 @@ SPH_INLINE void weight_pair(const void *what, uint32_t j, vreal *s)
 
 SPH_INLINE void weigh_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, bool second)
 {
-    const uint32_t row = SPH_TILE_ROOM, own = SPH_HOME_ROOM;
-    const sph_real *const columns = sph_columns_of(sim, t, SPH_COLUMN_quadrature);
+    const uint32_t row = SPH_NEAR_ROOM, own = SPH_HOME_ROOM;
+    const sph_real *const columns = sph_near_columns_of(sim, t, SPH_COLUMN_quadrature);
     const sph_real *const home = sph_home_columns_of(sim, t, SPH_COLUMN_quadrature);
     weighing w = {.volume = SPH_VOLUME_ROW(columns, row), .kind = SPH_KIND_ROW(columns, row)};
     w.scale = v_set(sim->fac.cover);
     w.was = SPH_HAS_TOTAL && sph_is_total(&sim->cfg) ? sph_reference_of(sim, t) : NULL;
-    w.cover = second ? sph_columns_of(sim, t, SPH_COLUMN_cover) : NULL;
+    w.cover = second ? sph_near_columns_of(sim, t, SPH_COLUMN_cover) : NULL;
     for (uint32_t h = 0; h < homes; h++) {
         if (SPH_HAS_TOTAL && w.was)
             w.home = sph_spread_reference(sph_reference_homes_of(sim, t), h);
         w.home_kind = v_set(SPH_KIND_ROW(home, own)[h]);
         w.home_cover = v_set(second ? sph_home_columns_of(sim, t, SPH_COLUMN_cover)[h] : 0);
-        const sph_gather g = {t, &t->bodies, h, sim->cfg.kernel, v_set(sim->fac.inv_h), &w};
-        sph_sum_home(t, h, t->bodies.n, SPH_SUM_MASK(SUM_Q, 1), second ? weight_pair : cover_pair, &g);
+        const sph_gather g = {t, sph_near_of(t, &t->bodies), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &w};
+        sph_sum_home(sim, t, &t->bodies, h, SPH_SUM_MASK(SUM_Q, 1), second ? weight_pair : cover_pair, &g);
     }
 }
 static void cover_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
@@ -132,16 +132,17 @@ static uint32_t columns_of(const sph_sim *sim)
 {
     return 1u << SPH_COLUMN_quadrature | (sph_is_total(&sim->cfg) ? 1u << SPH_COLUMN_reference : 0);
 }
+static uint8_t other_place(const sph_sim *sim) { return sph_is_total(&sim->cfg) ? 1 + SPH_COLUMN_reference : 0; }
 static void cover_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_sweep w = {solid_home, SPH_BODIES,   SPH_SUM_MASK(SUM_Q, 1), false, columns_of(sim),
-                         cover_tile, cover_finish, 0};
+                         cover_tile, cover_finish, 0,          other_place(sim)};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static void weight_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_sweep w = {weighed_home, SPH_BODIES,    SPH_SUM_MASK(SUM_Q, 1), false,
-                         columns_of(sim) | 1u << SPH_COLUMN_cover, weight_tile, weight_finish, 0};
+                         columns_of(sim) | 1u << SPH_COLUMN_cover, weight_tile, weight_finish, 0, other_place(sim)};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool weighs(const sph_sim *sim) { return sph_weighs_faces(&sim->cfg); }

@@ -10,7 +10,7 @@
     sph_real k[SPH_DIM][n]; /* reference position (m), from the home cell's low corner */                          \
     sph_real body[n]        /* the body's number + 1, 0: none */
 typedef struct sph_reference_tile {
-    SPH_REFERENCE_ROWS(SPH_TILE_ROOM);
+    SPH_REFERENCE_ROWS(SPH_NEAR_ROOM);
 } sph_reference_tile;
 typedef struct sph_reference_homes {
     SPH_REFERENCE_ROWS(SPH_HOME_ROOM);
@@ -18,7 +18,7 @@ typedef struct sph_reference_homes {
 
 SPH_INLINE const sph_reference_tile *sph_reference_of(const sph_sim *sim, const sph_thread *t)
 {
-    return (const sph_reference_tile *)(const void *)sph_columns_of(sim, t, SPH_COLUMN_reference);
+    return (const sph_reference_tile *)(const void *)sph_near_columns_of(sim, t, SPH_COLUMN_reference);
 }
 SPH_INLINE const sph_reference_homes *sph_reference_homes_of(const sph_sim *sim, const sph_thread *t)
 {

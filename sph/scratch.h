@@ -26,15 +26,43 @@ typedef struct sph_image {
 } sph_image;
 
 /* what every candidate brings */
+#define SPH_TILE_ROWS(room)                                                                                        \
+    sph_real x[SPH_DIM][room]; /* m, from the home cell's low corner */                                            \
+    sph_real v[SPH_DIM][room]; /* m/s */                                                                           \
+    sph_real m[room];          /* kg */                                                                            \
+    sph_real rho[room];        /* kg/m^3 */                                                                        \
+    sph_real press[room];      /* standard schemes: p/rho^2; others: p */                                          \
+    sph_real inv_rho[room]     /* 1/rho, where a formula needs it (sph_sweep.needs_inv_rho) */
+#define SPH_TILE_WIDTH (2 * SPH_DIM + 4) /* rows */
 typedef struct sph_tile {
     uint32_t n;
-    sph_real x[SPH_DIM][SPH_TILE_ROOM];  /* m, from the home cell's low corner */
-    sph_real v[SPH_DIM][SPH_TILE_ROOM];  /* m/s */
-    sph_real m[SPH_TILE_ROOM];           /* kg */
-    sph_real rho[SPH_TILE_ROOM];         /* kg/m^3 */
-    sph_real press[SPH_TILE_ROOM];       /* standard schemes: p/rho^2; others: p */
-    sph_real inv_rho[SPH_TILE_ROOM];     /* 1/rho, where a formula needs it (sph_sweep.needs_inv_rho) */
+    SPH_TILE_ROWS(SPH_TILE_ROOM);
 } sph_tile;
+
+/* What pairs are made with: the candidates of a tile; where these are sifted (neighbours.c), those within reach of a
+   home, some at a time. */
+#define SPH_SIFTS (SPH_DIM == 3)
+#if SPH_SIFTS
+#define SPH_NEAR_ROOM 64u /* a multiple of 8; no part of the definition of the bits */
+typedef struct sph_near_tile {
+    SPH_TILE_ROWS(SPH_NEAR_ROOM);
+} sph_near_tile;
+typedef struct sph_home_tile {
+    uint32_t n;
+    SPH_TILE_ROWS(SPH_HOME_ROOM);
+} sph_home_tile;
+typedef struct sph_sifted {
+    sph_near_tile near;                             /* neighbours of a home */
+    sph_real record[SPH_TILE + 1][SPH_TILE_WIDTH];  /* what candidates bring that any home can reach, and at the end one
+                                                       far away, as in a tile, but side by side */
+    uint32_t kept;                                  /* how many these are */
+    uint16_t at[SPH_TILE + SPH_LANES];              /* their places in the tile */
+    uint16_t list[SPH_TILE + 2 * SPH_LANES];        /* which of them are neighbours of a home */
+} sph_sifted;
+#else
+#define SPH_NEAR_ROOM SPH_TILE_ROOM
+typedef sph_tile sph_near_tile, sph_home_tile;
+#endif
 
 /* what a boundary-force particle brings */
 typedef struct sph_points {
@@ -58,7 +86,12 @@ typedef struct sph_block {
 typedef struct sph_thread {
     union {
         struct { /* sweeps */
-            sph_tile home, bodies, ghosts;
+            sph_home_tile home;
+            sph_tile bodies, ghosts;
+#if SPH_SIFTS
+            sph_sifted sifted;
+#endif
+            const struct sph_sweep *sweep;
             sph_points points;
             uint32_t home_at[SPH_HOMES]; /* index of the home particle */
             uint8_t home_set[SPH_HOMES];

@@ -67,7 +67,7 @@ SPH_INLINE void sph_shear_force(const sph_choice *c, const sph_home *h, const sp
         SPH_UNROLL
         for (uint32_t l = 0; l < SPH_DIM; l++) {
             const uint32_t n = k * SPH_DIM + l;
-            const vreal other = p->wall ? o->t[n] : v_load(row + n * SPH_TILE_ROOM + p->j);
+            const vreal other = p->wall ? o->t[n] : v_load(row + n * SPH_NEAR_ROOM + p->j);
             push[k] = push[k] - (o->t[n] + other) * p->dx[l];
         }
         push[k] = push[k] * w;

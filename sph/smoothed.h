@@ -8,7 +8,7 @@
 
 SPH_INLINE const sph_real *sph_smoothed_of(const sph_sim *sim, const sph_thread *t)
 {
-    return sph_columns_of(sim, t, SPH_COLUMN_smoothed);
+    return sph_near_columns_of(sim, t, SPH_COLUMN_smoothed);
 }
 SPH_INLINE const sph_real *sph_smoothed_homes_of(const sph_sim *sim, const sph_thread *t)
 {

@@ -40,7 +40,8 @@ typedef struct smoothing {
 SPH_INLINE void smooth_pair(const void *what, uint32_t j, vreal *s)
 {
     const sph_gather *g = what;
-    const sph_tile *home = &g->t->home, *c = g->tile;
+    const sph_home_tile *home = &g->t->home;
+    const sph_near_tile *c = g->tile;
     const smoothing *const own = g->own;
     vreal dx[SPH_DIM], kx[SPH_DIM];
     sph_gather_distance(g, j, dx);
@@ -73,8 +74,10 @@ static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
+    const bool total = sph_is_total(&sim->cfg);
     const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SPH_DIM), false,
-                         sph_is_total(&sim->cfg) ? 1u << SPH_COLUMN_reference : 0, smooth_tile, smooth_finish, 0};
+                         total ? 1u << SPH_COLUMN_reference : 0, smooth_tile, smooth_finish, 0,
+                         total ? 1 + SPH_COLUMN_reference : 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool smooths(const sph_sim *sim) { return sph_smooths_strain(&sim->cfg); }

@@ -340,7 +340,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
     SPH_MAX_(SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0u,                                                       \
              SPH_WITH_SHIFTING ? SPH_DIM + 1u + SPH_DIM * (SPH_DIM + 1u) / 2u : 0u)
 #define SPH_SCRATCH_BYTES /* a thread */                                                                    \
-    (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 81920u) +                                            \
+    (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 86016u) +                                            \
       SPH_TENSOR_SUMS_ * 512u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SOLID_SCRATCH_BYTES /* with solids besides */                                                   \
     ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))

@@ -16,7 +16,7 @@
     sph_real t[SPH_NL][n]; /* T */                                                                                 \
     sph_real r[SPH_NT][n]  /* R */
 typedef struct sph_stress_tile {
-    SPH_STRESS_ROWS(SPH_TILE_ROOM);
+    SPH_STRESS_ROWS(SPH_NEAR_ROOM);
 } sph_stress_tile;
 typedef struct sph_stress_homes {
     SPH_STRESS_ROWS(SPH_HOME_ROOM);
@@ -24,7 +24,7 @@ typedef struct sph_stress_homes {
 
 SPH_INLINE const sph_stress_tile *sph_stress_tile_of(const sph_sim *sim, const sph_thread *t)
 {
-    return (const sph_stress_tile *)(const void *)sph_columns_of(sim, t, SPH_COLUMN_stress);
+    return (const sph_stress_tile *)(const void *)sph_near_columns_of(sim, t, SPH_COLUMN_stress);
 }
 SPH_INLINE const sph_stress_homes *sph_stress_homes_of(const sph_sim *sim, const sph_thread *t)
 {
@@ -150,7 +150,7 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
             continue;
         vreal d = p->dv[k];
         if (c->hat)
-            d = h->u[k] - (p->wall ? v_load(p->tile->v[k] + p->j) : v_load(u + (uint32_t)k * SPH_TILE_ROOM + p->j));
+            d = h->u[k] - (p->wall ? v_load(p->tile->v[k] + p->j) : v_load(u + (uint32_t)k * SPH_NEAR_ROOM + p->j));
         sph_stress_gain(c, h, p, k, d * w);
         d = d * wl;
         SPH_UNROLL

@@ -69,6 +69,8 @@ static void flush(filling *f, uint32_t role)
         sph_close_tile(f->sim, ghosts ? &t->ghosts : &t->bodies);
         if (f->w->columns)
             close_sets(f, *n, ghosts);
+        if (SPH_SIFTS)
+            sph_sift_tile(f->sim, t, ghosts ? &t->ghosts : &t->bodies, f->homes);
     }
     f->w->tile(f->sim, t, f->homes, role);
     t->pairs += (uint64_t)*n * f->homes;
@@ -242,31 +244,54 @@ static void add_all(filling *f, const uint32_t *c)
     }
 }
 
+#if SPH_SIFTS
+/* homes are loaded as candidates are, where no candidates stand yet */
+#define HOMES_LOADED(t) (&(t)->bodies)
+static void copy_homes(sph_thread *t)
+{
+    const sph_tile *const from = &t->bodies;
+    sph_home_tile *const to = &t->home;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        memcpy(to->x[k], from->x[k], sizeof to->x[k]);
+        memcpy(to->v[k], from->v[k], sizeof to->v[k]);
+    }
+    memcpy(to->m, from->m, sizeof to->m);
+    memcpy(to->rho, from->rho, sizeof to->rho);
+    memcpy(to->press, from->press, sizeof to->press);
+    memcpy(to->inv_rho, from->inv_rho, sizeof to->inv_rho);
+}
+#else
+#define HOMES_LOADED(t) (&(t)->home)
+#define copy_homes(t) ((void)(t))
+#endif
+
 /* loads wanted particles from *s on into the home tile, at most SPH_HOMES; advances *s */
 static void load_homes(filling *f, uint32_t *s, uint32_t e)
 {
     sph_thread *t = f->t;
-    t->home.n = 0;
-    while (*s < e && t->home.n < SPH_HOMES) {
-        const uint32_t end = sph_run_end(f->b->set[0], *s, e), at = t->home.n;
+    sph_tile *const tile = HOMES_LOADED(t);
+    tile->n = 0;
+    while (*s < e && tile->n < SPH_HOMES) {
+        const uint32_t end = sph_run_end(f->b->set[0], *s, e), at = tile->n;
         const uint8_t set = f->b->set[0][*s];
         if (set == SPH_DEAD || !f->w->home(f->sim, &f->sim->set[set])) {
             *s = end;
             continue;
         }
         const uint32_t n = end - *s < SPH_HOMES - at ? end - *s : SPH_HOMES - at;
-        const sph_candidates r = {f->sim, f->b, &no_image, &f->sim->set[set], f->origin, *s, n, &t->home, at};
-        sph_load_tile(&r, &t->home, f->w->needs_inv_rho, true);
+        const sph_candidates r = {f->sim, f->b, &no_image, &f->sim->set[set], f->origin, *s, n, tile, at};
+        sph_load_tile(&r, tile, f->w->needs_inv_rho, true);
         if (f->w->columns)
             load_sets(f, &r, false, true);
         for (uint32_t j = 0; j < n; j++) {
             t->home_at[at + j] = *s + j;
             t->home_set[at + j] = set;
         }
-        t->home.n += n;
+        tile->n += n;
         *s += n;
     }
-    f->homes = t->home.n;
+    f->homes = tile->n;
+    copy_homes(t);
     SPH_ASSERT(f->homes <= SPH_HOMES);
 }
 
@@ -320,6 +345,7 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     f.sim = sim;
     f.w = w;
     f.t = t;
+    t->sweep = w;
     f.b = &sim->buf[sim->dst];
     f.homes = 0;
     SPH_ASSERT(w->sums >> SPH_SUMS == 0 && w->columns >> SPH_COLUMN_COUNT == 0);

@@ -5,9 +5,9 @@
    tile, and what to do with the sums. No neighbour list is kept.
 
    There is a tile for each class of candidates: bodies (fluid and solid), ghosts, points (boundary-force particles).
-   Candidate number k of a class goes to lane k mod 8, so sums depend on the order of candidates only. A full tile is
-   worked off and refilled; where several overflow, the capacities decide which comes first: they are part of the
-   definition of the bits. */
+   Candidate number k of a tile goes to lane k mod 8; in three dimensions (SPH_SIFTS) candidate number k of those within
+   the kernel's reach of a home (neighbours.c). So sums depend on places and the order of candidates only. A full tile
+   is worked off and refilled: the capacities are part of the definition of the bits. */
 #ifndef SPH_SWEEP_H
 #define SPH_SWEEP_H
 
@@ -60,7 +60,8 @@ struct sph_column_set {
 };
 #define sph_column_table SPH_NAME(column_table_)
 extern const struct sph_column_set sph_column_table[SPH_COLUMN_COUNT];
-/* the rows of a column set in a thread's scratch: of candidates, then of homes; SPH_COLUMN_... names the set */
+/* the rows of a column set in a thread's scratch: of candidates, of homes, of neighbours; SPH_COLUMN_... names the
+   set */
 SPH_INLINE sph_real *sph_columns_of(const sph_sim *sim, const sph_thread *t, uint32_t set)
 {
     return sim->extra + (size_t)(t - sim->thread) * sim->extra_reals + sim->extra_at[set];
@@ -68,6 +69,13 @@ SPH_INLINE sph_real *sph_columns_of(const sph_sim *sim, const sph_thread *t, uin
 SPH_INLINE sph_real *sph_home_columns_of(const sph_sim *sim, const sph_thread *t, uint32_t set)
 {
     return sph_columns_of(sim, t, set) + (size_t)sim->columns[set].rows * SPH_TILE_ROOM;
+}
+/* of the candidates that pairs are made with */
+SPH_INLINE sph_real *sph_near_columns_of(const sph_sim *sim, const sph_thread *t, uint32_t set)
+{
+    const struct sph_column_set *const s = &sim->columns[set];
+    const size_t before = SPH_SIFTS ? SPH_TILE_ROOM + (s->ghosts ? 0 : SPH_HOME_ROOM) : 0;
+    return sph_columns_of(sim, t, set) + s->rows * before;
 }
 
 typedef struct sph_sweep {
@@ -79,6 +87,7 @@ typedef struct sph_sweep {
     void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role); /* add a tile to the homes' sums */
     void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                     /* a home's sums are complete */
     uint8_t apart;        /* an or of SPH_APART_...: its tiles of bodies are of one kind of candidates */
+    uint8_t other_place;  /* 0, or 1 + a column set: the kernel may see bodies where its first rows say instead */
 } sph_sweep;
 enum { SPH_APART_KIN = 1, SPH_APART_MIRRORED = 2 }; /* of one material; seen through the same mirrors */
 
@@ -114,6 +123,16 @@ bool sph_is_tile_sound(const sph_tile *t);
 bool sph_poison_stage(sph_sim *sim);
 #define sph_poison_thread SPH_NAME(poison_thread_)
 bool sph_poison_thread(const sph_sim *sim, sph_thread *t);
+
+/* neighbours.c: keeps those candidates of a tile that any home can reach; of these, lists those within the kernel's
+   reach of one home, filled up to whole lanes with one that is far away, and returns how many; copies those from `from`
+   on, at most SPH_NEAR_ROOM, to where pairs are made with them, and returns how many */
+#define sph_sift_tile SPH_NAME(sift_tile_)
+void sph_sift_tile(const sph_sim *sim, sph_thread *t, sph_tile *tile, uint32_t homes);
+#define sph_find_neighbours SPH_NAME(find_neighbours_)
+uint32_t sph_find_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t home);
+#define sph_take_neighbours SPH_NAME(take_neighbours_)
+uint32_t sph_take_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t from, uint32_t found);
 
 /* tiles.c: the columns of every tile, for a run; `homes`: into the tile of homes */
 #define sph_load_tile SPH_NAME(load_tile_)

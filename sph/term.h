@@ -77,7 +77,7 @@ typedef struct sph_home {
 
 /* a group of candidates as the home sees them; x_ij, v_ij, and what the terms find */
 typedef struct sph_near {
-    const sph_tile *tile;
+    const sph_near_tile *tile;
     uint32_t j;
     bool wall;                                   /* the candidates are ghosts */
     vreal dx[SPH_DIM], kx[SPH_DIM], dv[SPH_DIM]; /* x_ij, K, v_ij */
@@ -103,7 +103,7 @@ SPH_INLINE vreal sph_pair_share(const sph_choice *c, const sph_home *h, const sp
     return c->loses ? sph_dot(push, h->v) : relative * (sph_real)0.5;
 }
 
-SPH_INLINE sph_home sph_spread_home(const sph_tile *t, uint32_t h)
+SPH_INLINE sph_home sph_spread_home(const sph_home_tile *t, uint32_t h)
 {
     sph_home o;
     SPH_UNROLL

@@ -4,7 +4,7 @@
    the kernel names them. */
 #include "testing.h"
 
-#include "sph/sweep.h"
+#include "sph/pair.h"
 #include "state.h"
 
 #define N (SPH_DIM == 3 ? 8 : 10)
@@ -348,7 +348,7 @@ void SPH_NAME(load_spare_)(const sph_candidates *r, sph_real *to, uint32_t row)
 }
 
 static struct {
-    uint32_t candidates, homes;
+    uint32_t candidates, homes, neighbours;
 } seen;
 
 static bool any_home(const sph_sim *sim, const sph_set *set)
@@ -356,6 +356,41 @@ static bool any_home(const sph_sim *sim, const sph_set *set)
     (void)sim, (void)set;
     return true;
 }
+#if SPH_SIFTS
+/* the neighbours of a home are those candidates within the kernel's reach, in their order, and their columns come with
+   them; `own`: the column that says x of all candidates */
+static void look_at_neighbours(const sph_sim *sim, sph_thread *t, uint32_t h, const sph_real *own)
+{
+    const sph_near_tile *const near = sph_near_of(t, &t->bodies);
+    const sph_real *const with = sph_near_columns_of(sim, t, SPH_COLUMN_spare);
+    const uint32_t found = sph_find_neighbours(sim, t, &t->bodies, h);
+    uint32_t within = 0, j = 0;
+    for (uint32_t from = 0; from < found; from += SPH_NEAR_ROOM) {
+        const uint32_t n = sph_take_neighbours(sim, t, &t->bodies, from, found);
+        assert_int_equal(n % SPH_LANES, 0);
+        for (uint32_t i = 0; i < n; i++) {
+            sph_real d[SPH_DIM], r2 = 0;
+            for (int k = 0; k < SPH_DIM; k++) {
+                d[k] = t->home.x[k][h] - near->x[k][i];
+                r2 += d[k] * d[k];
+            }
+            if (near->m[i] == 0) { /* fills up lanes */
+                assert_true(r2 > sim->fac.reach2);
+                continue;
+            }
+            within++;
+            assert_true(r2 < sim->fac.reach2);
+            close_to((double)with[i], (double)near->x[0][i], 0);
+            close_to((double)with[SPH_NEAR_ROOM + i], (double)near->v[0][i], 0);
+            while (j < t->bodies.n && own[j] != near->x[0][i]) /* they come in order */
+                j++;
+            assert_true(j < t->bodies.n);
+        }
+    }
+    assert_true(found - within < SPH_LANES);
+    seen.neighbours += within;
+}
+#endif
 static void look_at_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
     const sph_real *own = sph_columns_of(sim, t, SPH_COLUMN_spare);
@@ -363,13 +398,18 @@ static void look_at_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint
     assert_int_equal(role, SPH_ROLE_FLUID);
     for (uint32_t j = 0; j < t->bodies.n + SPH_LANES; j++) {
         const bool is = j < t->bodies.n; /* behind the last there is nothing, and that is finite */
-        close_to((double)own[j], is ? (double)t->bodies.x[0][j] : 0, 0);
+        if (!SPH_SIFTS)
+            close_to((double)own[j], is ? (double)t->bodies.x[0][j] : 0, 0);
         close_to((double)own[SPH_TILE_ROOM + j], is ? (double)t->bodies.v[0][j] : 0, 0);
     }
     for (uint32_t h = 0; h < homes; h++) {
         close_to((double)home[h], (double)t->home.x[0][h], 0);
         close_to((double)home[SPH_HOME_ROOM + h], (double)t->home.v[0][h], 0);
     }
+#if SPH_SIFTS
+    for (uint32_t h = 0; h < homes; h++)
+        look_at_neighbours(sim, t, h, own);
+#endif
     seen.candidates += t->bodies.n;
 }
 static void count_home(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -378,16 +418,37 @@ static void count_home(sph_sim *sim, sph_thread *t, uint32_t h)
     seen.homes++;
 }
 
+/* of all particles with all, and with themselves */
+static uint32_t pairs_within_reach(const sph_sim *sim)
+{
+    const sph_buffer *b = &sim->buf[sim->cur];
+    uint32_t pairs = 0;
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        for (uint32_t j = 0; j < sim->now.count; j++) {
+            double r2 = 0;
+            for (int k = 0; k < SPH_DIM; k++) {
+                double d = (double)(b->pos[k][i] - b->pos[k][j]) * sim->grid.quantum;
+                if (sim->cfg.face[k][0] == SPH_PERIODIC)
+                    d -= sim->grid.length[k] * floor(d / sim->grid.length[k] + 0.5);
+                r2 += d * d;
+            }
+            pairs += r2 < (double)sim->fac.reach2;
+        }
+    return pairs;
+}
+
 static void a_column_set_is_a_line_and_its_loader(void **state)
 {
     (void)state;
     sph_sim *sim = run_block(SPH_PREDICTOR_CORRECTOR, 1e-3, 20);
-    const sph_sweep w = {any_home, SPH_BODIES, 1, false, 1u << SPH_COLUMN_spare, look_at_tile, count_home, 0};
+    const sph_sweep w = {any_home, SPH_BODIES, 1, false, 1u << SPH_COLUMN_spare, look_at_tile, count_home, 0, 0};
     memset(&seen, 0, sizeof seen);
     for (uint32_t chunk = 0; chunk < sph_sweep_chunks(sim); chunk++)
         sph_sweep_chunk(sim, &w, chunk, sim->thread);
     assert_int_equal(seen.homes, sim->now.count);
     assert_true(seen.candidates > sim->now.count);
+    if (SPH_SIFTS)
+        assert_int_equal(seen.neighbours, pairs_within_reach(sim));
 }
 
 int main(void)
