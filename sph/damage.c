@@ -109,8 +109,8 @@ static double shared_energy(const sph_sim *sim, const sph_buffer *b, uint32_t i)
     double w = x * x + y * y + (x + y) * (x + y);
     for (int k = 2; k < SPH_NS; k++)
         w += 2 * (double)b->stress[k][i] * (double)b->stress[k][i];
-    const double tension = sph_pressure(sim, set, d) < 0 ? sph_eos_energy(set->eos, (double)set->b_r, set->rho0, d, false)
-                                                         : 0;
+    const double stored = sph_eos_energy(set->eos, (double)set->b_r, set->rho0, d, false);
+    const double tension = sph_pressure(sim, set, d) < 0 ? stored : 0;
     return set->mass * (tension + (mu > 0 ? w / (4 * mu * set->rho0) : 0));
 }
 

@@ -47,7 +47,8 @@ def cases(quick):
         for n in sizes:
             rows.append((f"bar {form} frequency n={n}", "% off c/2L", None, [], lambda f=form, n=n: 100 * e[f, n]))
         for a, b in zip(sizes, sizes[1:]):
-            rows.append((f"bar {form} order n={a}..{b}", "-", (">=", 1.9) if b == 160 and form != "updated" else None, [],
+            target = (">=", 1.9) if b == 160 and form != "updated" else None
+            rows.append((f"bar {form} order n={a}..{b}", "-", target, [],
                          lambda f=form, a=a, b=b: math.log2(abs(e[f, a] / e[f, b]))))
     return rows
 

@@ -714,7 +714,7 @@ static void calls_at_the_wrong_moment_are_refused(void **state)
     assert_true(strlen(sph_last(sim)->allowed) > 2);
 }
 
-/* the first forces are a part of the first step: whatever slice ends them, nothing may be changed before that step ends */
+/* the first forces are a part of the first step: whatever slice ends them, nothing may be changed before its end */
 static void first_forces_in_slices_leave_a_step_begun(void **state)
 {
     (void)state;

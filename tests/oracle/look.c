@@ -42,11 +42,14 @@ static sph_status add_sets(sph_sim *sim, const plan *p, uint32_t *set)
     return st;
 }
 
-static sph_status add_wall(sph_sim *sim, const plan_wall *w)
+static sph_table tables[PLAN_WALLS];
+
+static sph_status add_wall(sph_sim *sim, const plan_wall *w, sph_table *table)
 {
     sph_wall wall = w->wall;
-    wall.motion = sph_motion_steady;
-    wall.motion_ctx = (void *)(uintptr_t)&w->motion;
+    *table = (sph_table){PLAN_ROWS, w->axis, w->t, w->x};
+    wall.motion = w->by_table ? sph_motion_table : sph_motion_steady;
+    wall.motion_ctx = w->by_table ? (void *)table : (void *)(uintptr_t)&w->motion;
 #if SPH_DIM == 2
     if (w->flat)
         return sph_add_wall_segment(sim, &wall, w->lo, w->hi, NULL);
@@ -122,7 +125,7 @@ sph_sim *look_build(const plan *p, sph_report *why)
     st = st ? st : add_points(sim, p, set);
     st = st ? st : add_flaws(sim, p, set);
     for (uint32_t k = 0; !st && k < p->walls; k++)
-        st = add_wall(sim, &p->wall[k]);
+        st = add_wall(sim, &p->wall[k], &tables[k]);
     const sph_buffer *b = &sim->buf[sim->cur];
     for (uint32_t i = p->points; !st && i < sim->now.count; i++) /* compressible walls are not at rest density */
         if (sim->set[b->set[0][i]].compressible)
@@ -138,15 +141,18 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
     const sph_set *s = &sim->set[k];
     *o = (o_set){.role = s->role, .kind = s->kind, .eos = s->eos, .compressible = s->compressible,
                  .no_slip = s->no_slip, .mass = s->mass, .rho0 = s->rho0, .c0 = s->c0, .strength = s->strength};
-    const double t = sim->now.time;
+    if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion == sph_motion_table)
+        o->table = sim->group[s->group].ctx;
     for (int a = 0; a < SPH_DIM; a++) {
         if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion == sph_motion_steady) {
             const sph_steady *m = sim->group[s->group].ctx;
             o->start[a] = m->v[a];
             o->accel[a] = m->a[a];
         }
-        o->velocity[a] = o->once[a] = o->twice[a] = o->start[a] + o->accel[a] * t;
-        o->moved[a] = o->start[a] * t + 0.5 * o->accel[a] * t * t;
+    }
+    o_told(o, sim->now.time, o->moved, o->velocity);
+    for (int a = 0; a < SPH_DIM; a++) {
+        o->once[a] = o->twice[a] = o->velocity[a];
         o->origin[a] = s->origin[a] + sim->cfg.lo[a] + o->moved[a];
         o->normal[a] = s->normal[a];
         o->tangent[a] = s->tangent[a];

@@ -40,6 +40,7 @@ typedef struct o_set {
     double mass, rho0, c0, strength;          /* kg, kg/m^3, m/s; of walls as in sph_wall */
     double origin[3], normal[3], tangent[3];  /* of walls: a point of the face (m), into the fluid, along the face */
     double start[3], accel[3];                /* motion v t + a t^2/2 of what moves as it is told */
+    const sph_table *table;                   /* or by this, linear between rows and at rest before and after them */
     double velocity[3], moved[3];             /* m/s, m: its velocity and displacement now */
     double once[3], twice[3], push[3];        /* m/s, its velocity filtered; m/s^2, the acceleration of Adami's walls */
     double shear, yield, hardening, crack;    /* Pa, Pa, Pa, 1/s */
@@ -189,12 +190,14 @@ double o_grown_root(o_scene *s, const o_particle *i, const float *flaw, uint32_t
 double o_sponge(const o_scene *s, const o_particle *i);                                    /* sponge.c: S */
 void o_find_disorder(o_scene *s);              /* shifting.c */
 void o_shift(o_scene *s, double dt);
+void o_turn_round(o_particle *p, int k, double plane, bool tensors); /* steps.c: a mirror across axis k at `plane` */
 void o_forces(o_scene *s);                     /* forces.c: everything before and in the force evaluation */
 
 /* a pair gives the home's acceleration `part` (m/s^2) with a scale; books.c keeps the powers of walls */
 void o_push(const o_scene *s, o_particle *i, const o_particle *j, const double *part, double scale);
 
 /* ---- steps.c: whole steps ---- */
+void o_told(const o_set *set, double t, double *x, double *v); /* what moves as it is told: m, m/s at time t */
 void o_begin_steps(o_scene *s, uint32_t room); /* forgets rates of steps before; of at most `room` particles */
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold));
 

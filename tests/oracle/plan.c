@@ -327,6 +327,23 @@ static void draw_points(plan *p)
         }
 }
 
+/* some walls move by tables instead, whose velocities jump within the steps to come */
+static void draw_tables(plan *p)
+{
+    for (uint32_t k = 0; k < p->walls; k++) {
+        plan_wall *w = &p->wall[k];
+        const double time = p->cfg.spacing / p->cfg.sound_speed;
+        w->by_table = chance(0.3);
+        w->axis = pick(SPH_DIM);
+        w->t[0] = chance(0.5) ? 0 : range(0, 0.1) * time;
+        w->x[0] = range(-1, 1) * p->cfg.spacing; /* displacements count from here */
+        for (int r = 1; r < PLAN_ROWS; r++) {
+            w->t[r] = w->t[r - 1] + range(0.01, 0.4) * time;
+            w->x[r] = w->x[r - 1] + range(-0.1, 0.1) * p->cfg.sound_speed * (w->t[r] - w->t[r - 1]);
+        }
+    }
+}
+
 void plan_draw(plan *p, uint64_t seed)
 {
     memset(p, 0, sizeof *p);
@@ -357,6 +374,7 @@ void plan_draw(plan *p, uint64_t seed)
     p->cfg.face_quadrature = SPH_DIM > 1 && p->cfg.solid >= SPH_CORRECTED && chance(0.5);
     for (uint32_t k = 0; k < p->solids; k++)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
+    draw_tables(p);
 }
 
 void plan_print(const plan *p)

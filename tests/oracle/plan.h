@@ -6,7 +6,7 @@
 
 #include "oracle.h"
 
-enum { PLAN_POINTS = 64, PLAN_SETS = 3, PLAN_WALLS = 2, PLAN_PROBES = 6 };
+enum { PLAN_POINTS = 64, PLAN_SETS = 3, PLAN_WALLS = 2, PLAN_PROBES = 6, PLAN_ROWS = 4 };
 
 /* a step of nearly no time, in spacings over the sound speed */
 #define PLAN_STILL 1e-10
@@ -23,6 +23,9 @@ typedef struct plan_wall {
     double lo[3], hi[3], across[3]; /* flat: origin, end of one edge, of the other */
     uint32_t faces;
     sph_steady motion;
+    bool by_table;              /* or so: */
+    uint32_t axis;
+    double t[PLAN_ROWS], x[PLAN_ROWS];
 } plan_wall;
 
 typedef struct plan_flaws { /* as sph_flaws, which 1-D has not */

@@ -6,8 +6,9 @@
    (the bracket is 1 where W(dx) is 0). At the end of a step
      dx_i = -C dt v_max 4h slope_i, cut to 0.05 dx, where cover > 0.9 and all eigenvalues of M are above 0.75
      rho_i += rho_i min(C dt v_max/h, 1/2) (cover - 1) where they are above 0.98, unless densities are summed
-   v_max: of the fluid, when the last forces were made. A periodic face lets round, a mirror mirrors the place, and
-   nobody goes through an open one. Velocities stay. What potential and internal energy lose is the book `shifted`. */
+   v_max: of the fluid, when the last forces were made. A periodic face lets round, a mirror takes the mirrored
+   particle, and nobody goes through an open one. Velocities stay else. What potential and internal energy lose is the
+   book `shifted`. */
 #include "oracle.h"
 
 static void sum_pair(const o_scene *s, o_particle *i, const o_pair *p, double w_dx, double *m, double (*spread)[3],
@@ -65,20 +66,22 @@ void o_find_disorder(o_scene *s)
     }
 }
 
-/* along one axis, through its faces: the place where a way ends; *left: through an open face */
-static double end_of(const o_scene *s, int k, double x, double *way, bool *left)
+/* along one axis, through its faces: the place where a way ends; through an open face nobody goes */
+typedef struct passage {
+    double to;
+    bool left, turned;
+    uint32_t face;
+    double plane;
+} passage;
+static passage end_of(const o_scene *s, int k, double x, double way)
 {
-    const double lo = s->cfg.lo[k], hi = s->cfg.hi[k];
-    const bool low = x + *way < lo;
-    if (!low && x + *way < hi)
-        return x + *way;
-    const uint32_t face = s->cfg.face[k][!low];
-    *left |= face == SPH_OPEN;
-    if (face == SPH_PERIODIC)
-        return x + *way + (low ? hi - lo : lo - hi);
-    const double to = 2 * (low ? lo : hi) - (x + *way);
-    *way = to - x;
-    return to;
+    const double lo = s->cfg.lo[k], hi = s->cfg.hi[k], to = x + way;
+    const bool low = to < lo;
+    const uint32_t face = low || to >= hi ? s->cfg.face[k][!low] : SPH_PERIODIC;
+    passage e = {to, face == SPH_OPEN, face != SPH_OPEN && face != SPH_PERIODIC, face, low ? lo : hi};
+    if (face == SPH_PERIODIC && (low || to >= hi))
+        e.to += low ? hi - lo : lo - hi;
+    return e;
 }
 
 static double stored(const o_scene *s, const o_particle *i)
@@ -93,7 +96,8 @@ void o_shift(o_scene *s, double dt)
     const double near = (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing;
     for (uint32_t a = 0; a < s->n; a++) {
         o_particle *i = &s->own[a];
-        double way[3] = {0}, to[3], taken = stored(s, i);
+        double way[3] = {0}, taken = stored(s, i);
+        passage end[3];
         bool left = false;
         if (!o_is_body(s, i))
             continue;
@@ -104,12 +108,18 @@ void o_shift(o_scene *s, double dt)
         const double size = sqrt(o_dot(way, way)), most = 0.05 * s->cfg.spacing;
         for (int k = 0; k < SPH_DIM; k++) {
             way[k] *= size > most ? most / size : 1;
-            to[k] = end_of(s, k, i->x[k], &way[k], &left);
+            end[k] = end_of(s, k, i->x[k], way[k]);
+            left |= end[k].left;
             o_close(s, "a particle on a face", i->x[k] + way[k], s->cfg.lo[k], near);
             o_close(s, "a particle on a face", i->x[k] + way[k], s->cfg.hi[k], near);
         }
         for (int k = 0; k < SPH_DIM && !left; k++) {
-            i->x[k] = to[k];
+            const double from = i->x[k];
+            i->x[k] = end[k].to;
+            if (end[k].turned) {
+                o_turn_round(i, k, end[k].plane, end[k].face == SPH_SYMMETRY);
+                way[k] = i->x[k] - from;
+            }
             taken += s->cfg.gravity[k] * way[k];
         }
         o_add(&s->shifted, s->set[i->set].mass * taken, s->set[i->set].mass * (fabs(taken) + stored(s, i)));

@@ -86,6 +86,22 @@ void o_begin_steps(o_scene *s, uint32_t room)
 
 /* ---- what moves as it is told ---- */
 
+void o_told(const o_set *set, double t, double *x, double *v)
+{
+    const sph_table *m = set->table;
+    for (int a = 0; a < 3; a++) {
+        x[a] = set->start[a] * t + 0.5 * set->accel[a] * t * t;
+        v[a] = set->start[a] + set->accel[a] * t;
+    }
+    for (uint32_t r = 0; m && r + 1 < m->rows; r++) {
+        const double speed = (m->x[r + 1] - m->x[r]) / (m->t[r + 1] - m->t[r]);
+        const double gone = o_min(o_max(t, m->t[r]), m->t[r + 1]) - m->t[r];
+        x[m->axis] += speed * gone;
+        if (t >= m->t[r] && t < m->t[r + 1])
+            v[m->axis] = speed;
+    }
+}
+
 /* Accelerations of Adami's walls at time t of the step that began at t0, from what had been filtered till then, with
    velocities on a line between; by the classical Runge-Kutta rule in small steps. To keep: it is the step's end. */
 static void filter(o_scene *s, double t0, double t, bool keep)
@@ -95,12 +111,14 @@ static void filter(o_scene *s, double t0, double t, bool keep)
     for (uint32_t k = 0; k < s->sets; k++)
         for (int a = 0; a < SPH_DIM; a++) {
             o_set *set = &s->set[k];
-            double u = set->once[a], w = set->twice[a];
+            double x[3], v0[3], v1[3], u = set->once[a], w = set->twice[a];
+            o_told(set, t0, x, v0);
+            o_told(set, t, x, v1);
             for (int part = 0; part < PARTS; part++) {
                 double du[5] = {0}, dw[5] = {0};
                 for (int g = 1; g < 5; g++) {
                     const double share = g == 1 ? 0 : g == 4 ? 1 : 0.5;
-                    const double v = set->start[a] + set->accel[a] * (t0 + (part + share) * d);
+                    const double v = v0[a] + (v1[a] - v0[a]) * (part + share) / PARTS;
                     const double uu = u + share * d * du[g - 1], ww = w + share * d * dw[g - 1];
                     du[g] = (v - uu) / tau;
                     dw[g] = (uu - ww) / tau;
@@ -108,7 +126,7 @@ static void filter(o_scene *s, double t0, double t, bool keep)
                 u += d * (du[1] + 2 * du[2] + 2 * du[3] + du[4]) / 6;
                 w += d * (dw[1] + 2 * dw[2] + 2 * dw[3] + dw[4]) / 6;
             }
-            set->push[a] = (2 * (set->start[a] + set->accel[a] * t) - 3 * u + w) / tau;
+            set->push[a] = (2 * v1[a] - 3 * u + w) / tau;
             if (keep)
                 set->once[a] = u, set->twice[a] = w;
         }
@@ -117,14 +135,17 @@ static void filter(o_scene *s, double t0, double t, bool keep)
 /* places at time t; velocities as given: at t, or the mean of a step before t */
 static void tell(o_scene *s, double t, double dt_of_mean)
 {
-    for (uint32_t k = 0; k < s->sets; k++)
+    for (uint32_t k = 0; k < s->sets; k++) {
+        o_set *set = &s->set[k];
+        double to[3], v[3], from[3], before[3];
+        o_told(set, t, to, v);
+        o_told(set, t - dt_of_mean, from, before);
         for (int a = 0; a < SPH_DIM; a++) {
-            o_set *set = &s->set[k];
-            const double to = set->start[a] * t + 0.5 * set->accel[a] * t * t;
-            set->origin[a] += to - set->moved[a];
-            set->moved[a] = to;
-            set->velocity[a] = set->start[a] + set->accel[a] * (t - half(dt_of_mean));
+            set->origin[a] += to[a] - set->moved[a];
+            set->moved[a] = to[a];
+            set->velocity[a] = dt_of_mean > 0 ? (to[a] - from[a]) / dt_of_mean : v[a];
         }
+    }
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         const o_set *set = &s->set[p->set];
@@ -142,7 +163,7 @@ static void tell(o_scene *s, double t, double dt_of_mean)
 /* ---- faces ---- */
 
 /* a mirror of axis k takes a particle, and what it was accelerated by */
-static void turn_round(o_particle *p, int k, double plane, bool tensors)
+void o_turn_round(o_particle *p, int k, double plane, bool tensors)
 {
     p->x[k] = 2 * plane - p->x[k];
     p->rest[k] = 2 * plane - p->rest[k];
@@ -177,7 +198,7 @@ static void pass_faces(o_scene *s)
                 p->x[k] += way;
                 p->rest[k] += way;
             } else {
-                turn_round(p, k, low ? lo : hi, face == SPH_SYMMETRY);
+                o_turn_round(p, k, low ? lo : hi, face == SPH_SYMMETRY);
                 b->turned[k] = !b->turned[k];
                 b->mirrored[k] = b->mirrored[k] != (face == SPH_SYMMETRY);
             }
@@ -395,8 +416,6 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
     s->time += half(dt);
     tell(s, s->time, 0);
     filter(s, begun, s->time, true);
-    if (s->cfg.density == SPH_SUMMATION) /* of where they are */
-        find_density(s, number);
 }
 
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
@@ -421,8 +440,11 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     if (s->cfg.shifting > 0)
         o_shift(s, dt);
     last = dt;
-    if (by == SPH_RUNGE_KUTTA || by == SPH_RUNGE_KUTTA_MOMENTUM)
+    if (by == SPH_RUNGE_KUTTA || by == SPH_RUNGE_KUTTA_MOMENTUM) {
+        if (s->cfg.density == SPH_SUMMATION) /* of where they are */
+            find_density(s, number);
         return;
+    }
     if (by == SPH_PREDICTOR_CORRECTOR) {
         remember_rates(s);
         return;
