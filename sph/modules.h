@@ -68,7 +68,7 @@
     X(BODY_FORCE, 1) /* a body force beside gravity */                                                     \
     X(BOOKS, 1) /* work and dissipation */                                                                 \
     X(OBJECT_PROBES, 1) /* every object shows that it was built soundly and like the others (arithmetic.h) */ \
-    X(DETAILS, 1) /* reports of failures: set and role of the particle, face, particles needed */          \
+    X(DETAILS, 1) /* failures: set and role of the particle, face, particles needed; densities of a step */ \
     X(STAGE_LOG, 1)                                                                                        \
     X(TOTALS, 1) /* sph_get_totals */                                                                      \
     X(PROBES, 1) /* sph_probe, sph_probe_line, gauges, sph_extent */                                       \

@@ -306,5 +306,6 @@ void sph_get_step(const sph_sim *sim, sph_step_info *out)
     out->crossed = sim->now.crossed;
     out->put_back = sim->now.put_back;
     out->reflected = sim->now.reflected;
-    find_densities(sim, out);
+    if (SPH_WITH_DETAILS)
+        find_densities(sim, out);
 }

@@ -655,9 +655,9 @@ typedef struct sph_step_info {
     uint64_t work;        /* work units */
     uint32_t passes;      /* passes run */
     uint32_t left, crossed, put_back, reflected; /* particles: since init */
-    double thinnest, densest; /* rho/rho0 of the fluid now, looked up in all particles; 0: there is none. Far below 1:
-                                 spray, which loses density by continuity, or tension; far above: sound is too slow, or
-                                 a wall squeezes */
+    double thinnest, densest; /* rho/rho0 of the fluid now, looked up in all particles; 0: there is none, or knob
+                                 DETAILS is off. Far below 1: spray, which loses density by continuity, or tension; far
+                                 above: sound is too slow, or a wall squeezes */
 } sph_step_info;
 #define sph_get_step SPH_NAME(get_step)
 void sph_get_step(const sph_sim *sim, sph_step_info *out);
