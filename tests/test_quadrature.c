@@ -58,7 +58,7 @@ static double weight_at(const sph_sim *sim, uint32_t id)
     return 0;
 }
 
-/* where the kernel reaches neighbours and diagonals only: 1 + c, 1 - c, 1 ..., c = 1/24 + delta, delta = 2 g(sqrt 2)/(2
+/* where the kernel reaches neighbours and diagonals only: 1 + c, 1 - c, 1 ..., c = (1/24 + delta)/(1 - delta), delta = 2 g(sqrt 2)/(2
    g(1) + 2 g(sqrt 2)) in 2-D, 2 g(sqrt 2)/(2 g(1) + 6 g(sqrt 2)) in 3-D, where a row has diagonals of its own */
 static void rows_beside_a_face_have_the_weights_of_the_derivation(void **state)
 {
@@ -69,7 +69,7 @@ static void rows_beside_a_face_have_the_weights_of_the_derivation(void **state)
         sph_kernel_value(c.kernel, DX, c.smoothing_length, &w, &near);
         sph_kernel_value(c.kernel, sqrt(2) * DX, c.smoothing_length, &w, &far);
         far /= sqrt(2);
-        const double delta = 2 * far / (2 * near + (SPH_DIM == 3 ? 6 : 2) * far), by = 1.0 / 24 + delta;
+        const double delta = 2 * far / (2 * near + (SPH_DIM == 3 ? 6 : 2) * far), by = (1.0 / 24 + delta) / (1 - delta);
         const uint32_t n = 8, columns = 9, middle = SPH_DIM == 3 ? 4 * 9 + 4 : 4;
         for (int k = 0; k < SPH_DIM - 1; k++) {
             c.lo[k] = 0;
