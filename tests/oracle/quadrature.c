@@ -3,8 +3,9 @@
      Q_i = sum V_j K^2 g_ij/Q0    phi_i = 1 + beta sum V_j K^2 g_ij/Q0 (Q_j - Q_i), between 1/2 and 3/2
    V = m/rho0 at rest; Q over solids, not across two bodies of the total form; phi over those of flat sets that are both
    held or both free. Q0 is that of a full lattice of spacing dx. beta: on a half lattice, of rows r = 0, 1 ... below a
-   face, sum (phi_r - 1) (r + delta_r) = -(1/24 + sum delta_r): what the midpoint rule and gradients that are one-sided miss (a
-   gradient along the face, sum V K_t g u/sum V K_t^2 g, is of a place delta_r deeper where u goes as depth times K_t).
+   face, sum (phi_r - 1) (r + delta_r) = -(1/24 + sum delta_r): what the midpoint rule and gradients that are one-sided
+   miss (a gradient along the face, sum V K_t g u/sum V K_t^2 g, is of a place delta_r deeper where u goes as depth
+   times K_t).
    A particle that has a weight keeps it. */
 #include "oracle.h"
 
