@@ -58,9 +58,9 @@ static double weight_at(const sph_sim *sim, uint32_t id)
     return 0;
 }
 
-/* Where the kernel reaches neighbours and diagonals only: 1 + c, 1 - c, 1 ..., c = (1/24 + delta)/(1 - delta). delta is
-   2 g(sqrt 2)/(2 g(1) + 2 g(sqrt 2)) in 2-D, 2 g(sqrt 2)/(2 g(1) + 6 g(sqrt 2)) in 3-D, where a row has diagonals of its
-   own. */
+/* Where the kernel reaches neighbours and diagonals only: 1 + c, 1 - c, 1 ..., c = (1/24 + delta)/(1 - delta), delta
+   2 g(sqrt 2)/(2 g(1) + 2 g(sqrt 2)) in 2-D; in 3-D, where a row has diagonals of its own, 2 g(sqrt 2)/(2 g(1) + 6
+   g(sqrt 2)). */
 static void rows_beside_a_face_have_the_weights_of_the_derivation(void **state)
 {
     (void)state;
