@@ -102,7 +102,8 @@ static layers sum_layers(const sph_config *c)
     return l;
 }
 
-/* Q0 and beta of quadrature.c, from rows r of a half space, r dx deeper than the outermost */
+/* Q0 and beta of quadrature.c, from rows r of a half space, r dx deeper than the outermost: where the kernel reaches
+   neighbours and diagonals only, beta = (1/24 + d)/(1 - d) (Q0/k)^2, k what the face cuts off, d = delta_0 */
 static void make_weights(const sph_config *c, double slope, sph_factors *f)
 {
     const layers l = sum_layers(c);
@@ -124,7 +125,7 @@ static void make_weights(const sph_config *c, double slope, sph_factors *f)
             weight += l.all[m] * ((m <= r ? up : 0) + down);
         }
         deeper += above / along;
-        moment -= weight / (full * full) * r;
+        moment -= weight / (full * full) * (r + above / along);
     }
     const double volume = SPH_DIM == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
     f->cover = full < 0 ? (sph_real)(slope / (full * volume * c->spacing)) : 0; /* else nobody has neighbours */

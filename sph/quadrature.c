@@ -8,12 +8,12 @@
 
      Q_i = sum V_j K^2 g_ij/Q0    phi_i = 1 + beta sum V_j K^2 g_ij/Q0 (Q_j - Q_i)    beta = (1/24 + sum delta_r)/S
 
-   Q0 is a full lattice's sum, so Q = 1 away from faces; S is what the sum of (phi_r - 1)/beta times the depth of row r
-   comes to on a lattice with a face (factors.c finds beta and Q0 so: Euler-Maclaurin; derived here). Forces follow from
-   the energy: T_i = -phi_i sigma_i M_i^-T/rho (stress.c), so momentum, angular momentum and, with energies that are
-   weighed by phi, the books stay exact. The sum of phi - 1 over a body is 0. Where particles stand in no order phi
-   stays between 1/2 and 3/2. K and g are those of the form of solids;
-   pairs of a held and a free set are left out of phi, for the face of a clamp is none.
+   Q0 is a full lattice's sum, so Q = 1 away from faces; S is what the sum of (1 - phi_r)/beta times the depth
+   r + delta_r comes to on a lattice with a face (Euler-Maclaurin; derived here; factors.c finds Q0 and beta). What is
+   left of the energy of bending goes as dx^3. Forces follow from the energy: T_i = -phi_i sigma_i M_i^-T/rho,
+   so momentum, angular momentum and, with energies that are weighed by phi, the books stay exact. The sum of phi - 1
+   over a body is 0. Where particles stand in no order phi stays between 1/2 and 3/2. K and g are those of the form of
+   solids; pairs of a held and a free set are left out of phi, for the face of a clamp is none.
 
    Field: quadrature (one real), made with the first forces of a particle and kept. Cost: two sweeps, once. */
 #include "quadrature.h"

@@ -58,8 +58,9 @@ static double weight_at(const sph_sim *sim, uint32_t id)
     return 0;
 }
 
-/* where the kernel reaches neighbours and diagonals only: 1 + c, 1 - c, 1 ..., c = 1/24 + delta, delta = 2 g(sqrt 2)/(2
-   g(1) + 2 g(sqrt 2)) in 2-D, 2 g(sqrt 2)/(2 g(1) + 6 g(sqrt 2)) in 3-D, where a row has diagonals of its own */
+/* Where the kernel reaches neighbours and diagonals only: 1 + c, 1 - c, 1 ..., c = (1/24 + delta)/(1 - delta), delta
+   2 g(sqrt 2)/(2 g(1) + 2 g(sqrt 2)) in 2-D; in 3-D, where a row has diagonals of its own, 2 g(sqrt 2)/(2 g(1) + 6
+   g(sqrt 2)). */
 static void rows_beside_a_face_have_the_weights_of_the_derivation(void **state)
 {
     (void)state;
@@ -69,7 +70,7 @@ static void rows_beside_a_face_have_the_weights_of_the_derivation(void **state)
         sph_kernel_value(c.kernel, DX, c.smoothing_length, &w, &near);
         sph_kernel_value(c.kernel, sqrt(2) * DX, c.smoothing_length, &w, &far);
         far /= sqrt(2);
-        const double delta = 2 * far / (2 * near + (SPH_DIM == 3 ? 6 : 2) * far), by = 1.0 / 24 + delta;
+        const double delta = 2 * far / (2 * near + (SPH_DIM == 3 ? 6 : 2) * far), by = (1.0 / 24 + delta) / (1 - delta);
         const uint32_t n = 8, columns = 9, middle = SPH_DIM == 3 ? 4 * 9 + 4 : 4;
         for (int k = 0; k < SPH_DIM - 1; k++) {
             c.lo[k] = 0;
@@ -167,6 +168,46 @@ static void a_clamp_is_no_face(void **state)
     for (uint32_t r = 2; r < 6; r++)
         close_to(weight_at(sim, r), 1, 1e3 * EPS);
     assert_int_equal(free_sims(NULL), 0);
+}
+
+/* A held column on the face whose moduli are halved bears a uniform stress: no free particle is accelerated. With the
+   moduli of the body, or half a spacing further out, those beside it are. */
+static double push_at_a_clamp(double share, double out)
+{
+    const uint32_t columns = 8, n = SPH_DIM == 3 ? 64 : 8;
+    sph_config c = config_of(SPH_TOTAL, 0.8, 2);
+    sph_solid m = {.shear = MU};
+    uint32_t body, clamp;
+    double most = 0;
+    c.face_quadrature = false;
+    for (int k = 1; k < SPH_DIM; k++) {
+        c.lo[k] = 0;
+        c.hi[k] = 8 * DX;
+        c.face[k][0] = c.face[k][1] = SPH_PERIODIC;
+    }
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_solid(sim, &m, &body, NULL));
+    m.shear *= share;
+    m.sound_speed = c.sound_speed * sqrt(share);
+    m.held = (1u << SPH_DIM) - 1;
+    must(sim, sph_add_solid(sim, &m, &clamp, NULL));
+    for (uint32_t i = 0; i < (columns + 1) * n; i++) {
+        const double x[3] = {i < n ? -out * DX : i / n * DX, (i % 8 + 0.5) * DX, (i / 8 % 8 + 0.5) * DX};
+        must(sim, sph_add_particle(sim, i < n ? clamp : body, x, NULL, 1.001 * c.rho0, NULL));
+    }
+    must(sim, sph_ready(sim));
+    for (uint32_t i = n; i < 5 * n; i++)
+        most = fmax(most, fabs(by_id(sim, i).a[0]));
+    most /= 1e-3 * c.sound_speed * c.sound_speed / DX;
+    assert_int_equal(free_sims(NULL), 0);
+    return most;
+}
+static void a_clamp_on_the_face_bears_a_uniform_stress(void **state)
+{
+    (void)state;
+    assert_true(push_at_a_clamp(0.5, 0) < (SPH_DOUBLE ? 1e-10 : 2e-2));
+    assert_true(push_at_a_clamp(1, 0) > 0.1);
+    assert_true(push_at_a_clamp(0.5, 0.5) > 0.1);
 }
 
 /* ---- steps ---- */
@@ -309,6 +350,7 @@ int main(void)
         subject(rows_beside_a_face_have_the_weights_of_the_derivation),
         subject(the_energy_of_a_bent_strip_is_nearly_exact),
         subject(a_clamp_is_no_face),
+        subject(a_clamp_on_the_face_bears_a_uniform_stress),
         subject(energy_and_momentum_stay),
         subject(a_weight_is_kept),
         subject(slices_threads_and_restarts_change_no_bit),

@@ -55,8 +55,10 @@ static inline sph_solid solid_material(const double *p)
 /* What holds a body at a flat face. Held centres that stand half a spacing behind the face let a displacement vanish
    there and not on it, which costs the first order of the spacing. An ideal clamp is one row of held particles whose
    centres stand on the face: half of each lies in the body, so its stress counts by half (shear modulus, yield stress,
-   hardening and c0^2 are halved), its mass and its weight in sums stay. c0: of the body. Flaws do not break it (they
-   are strains of a material; a clamp is given none). */
+   hardening and c0^2 are halved), its mass and its weight in sums stay; damage, a share of the stress, needs nothing.
+   Exact for uniform stress where the kernel reaches neighbours and diagonals only (h 0.8 with a support of 2: a block
+   that is drawn has 0.013 % of its stress wrong at 20 columns, 9.9 % with columns held as a whole); with h 1.5 the
+   body is 0.37 dx too long still (0.86 dx). c0: of the body. */
 static inline sph_solid solid_clamp(const sph_solid *body, double c0)
 {
     sph_solid m = *body;

@@ -3,8 +3,9 @@
      Q_i = sum V_j K^2 g_ij/Q0    phi_i = 1 + beta sum V_j K^2 g_ij/Q0 (Q_j - Q_i), between 1/2 and 3/2
    V = m/rho0 at rest; Q over solids, not across two bodies of the total form; phi over those of flat sets that are both
    held or both free. Q0 is that of a full lattice of spacing dx. beta: on a half lattice, of rows r = 0, 1 ... below a
-   face, sum (phi_r - 1) r = -(1/24 + sum delta_r): what the midpoint rule and gradients that are one-sided miss (a
-   gradient along the face, sum V K_t g u/sum V K_t^2 g, is of a place delta_r deeper where u goes as depth times K_t).
+   face, sum (phi_r - 1) (r + delta_r) = -(1/24 + sum delta_r): what the midpoint rule and gradients that are one-sided
+   miss (a gradient along the face, sum V K_t g u/sum V K_t^2 g, is of a place delta_r deeper where u goes as depth
+   times K_t).
    A particle that has a weight keeps it. */
 #include "oracle.h"
 
@@ -44,18 +45,19 @@ static double layer(const o_scene *s, int m)
 static lattice lattice_of(const o_scene *s)
 {
     const int n = (int)(s->support / s->cfg.spacing) + 1;
-    double along, deep, full, rows[3 * 32], layers[32], missed = 1.0 / 24, moment = 0;
+    double along, deep, full, rows[3 * 32], delta[3 * 32], layers[32], missed = 1.0 / 24, moment = 0;
     row_sums(s, 1000000, &full, &along, &deep);
     for (int m = 1; m <= n; m++)
         layers[m] = layer(s, m);
     for (int r = 0; r <= 2 * n; r++) {
         row_sums(s, r, &rows[r], &along, &deep);
-        missed += deep / along;
+        delta[r] = deep / along;
+        missed += delta[r];
     }
     for (int r = 0; r <= n; r++)
         for (int m = 1; m <= n; m++) { /* what a pair of rows gives the one it takes from the other */
             const double flow = layers[m] * (rows[r + m] - rows[r]) / (full * full);
-            moment += flow * r - flow * (r + m);
+            moment += flow * (r + delta[r]) - flow * (r + m + delta[r + m]);
         }
     return (lattice){full, -missed / moment};
 }
