@@ -5,7 +5,8 @@
 A mutant is the kernel with one change in one place of sph/: an operator, a sign, a constant, an index, a bound, a
 statement left out, two arguments swapped. Only what depends on the changed file is compiled, in a copy of the tree;
 then those golden cases run whose runs pass the changed line, then those test programs, the quickest first, until one
-fails. Which lines each passes is known from a build with line counters, made once.
+fails; where none does, the quick ones once more with traps for undefined behaviour, as `make asan` runs them. Which
+lines each passes is known from a build with line counters, made once.
 
   killed    a hash differs, a test fails, or a program dies or hangs; `by` says which
   survived  no test saw it; `by` says how many programs ran the line
@@ -30,6 +31,7 @@ WARN = "-w -Werror=int-conversion -Werror=incompatible-pointer-types -Werror=imp
 # the general loop compiles in a third of the time and has the same bits
 MAKE = ["make", "-s", "--no-print-directory", "CC=" + os.environ.get("GCC", "gcc"), "OPT=-O1", "WARN=" + WARN,
         "CFLAGS=-DSPH_ASSERTS=1 -DSPH_WITH_FAST_PATHS=0"]
+UNDEFINED = ["-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"]
 TARGET = 95.0
 QUICK = 5  # s of processor time, with line counters: programs that take longer are not asked
 HEAD = ["file", "line", "column", "kind", "from", "to", "verdict", "by", "code", "note"]
@@ -328,12 +330,12 @@ class Worker(threading.Thread):
             words, to = list(self.tree.commands[o]), "fresh/" + o
             os.makedirs(os.path.dirname(os.path.join(self.tree.at, to)), exist_ok=True)
             words[words.index("-o") + 1] = to
-            if run(words, self.tree.at, 120):
+            if run(words + self.extra, self.tree.at, 120):
                 self.fresh[o] = None
             else:
                 same = open(os.path.join(self.tree.at, o), "rb").read() == \
                     open(os.path.join(self.tree.at, to), "rb").read()
-                self.fresh[o] = o if same else to
+                self.fresh[o] = o if same and not self.extra else to
         return self.fresh[o]
 
     def tried(self, name, args, cpu, whole=False):
@@ -353,14 +355,15 @@ class Worker(threading.Thread):
     def judge(self, m):
         path = os.path.join(self.tree.at, m[0])
         whole = open(path).read()
-        self.users, self.fresh, self.linked = self.tree.users.get(m[0], set()), {}, None
+        self.users, self.fresh, self.linked, self.extra = self.tree.users.get(m[0], set()), {}, None, []
         try:
             with open(path, "w") as f:
                 f.write(mutated(m[0], m[1:]))
             first = "build/mutants_golden_2f"
             if any(self.compiled(o) is None for o in self.tree.inputs[first]):
                 return "invalid", ""
-            return self.by_tests(m)
+            verdict, by = self.by_tests(m)
+            return self.undefined(m, path, whole) or (verdict, by) if verdict == "survived" else (verdict, by)
         finally:
             with open(path, "w") as f:
                 f.write(whole)
@@ -383,6 +386,28 @@ class Worker(threading.Thread):
         if self.equal(m):
             return "equal", ""
         return "survived", "%d programs ran it" % len(names) if names else "no program runs it"
+
+    def undefined(self, m, path, whole):
+        """does undefined behaviour trap (make asan has the same checks), where it does not without the change?"""
+        seconds, who, self.extra = self.known.seconds, self.known.who(m[0], m[1]), UNDEFINED
+        tries = [("build/mutants_golden_" + b, ["tests/golden.csv"] +
+                  [k.split(":")[1] for k in who if k.startswith("build/mutants_golden_%s:" % b)]) for b in GOLDEN[:2]]
+        tries = [t for t in tries if len(t[1]) > 1] + [(k, []) for k in self.in_order(who) if seconds[k] < 0.5]
+        for name, args in tries:
+            self.linked = None
+            if not self.tried(name, args, 30):
+                continue
+            changed = open(path).read()
+            with open(path, "w") as f:
+                f.write(whole)
+            self.fresh, self.linked = {}, None
+            sound = not self.tried(name, args, 30)
+            with open(path, "w") as f:
+                f.write(changed)
+            self.fresh, self.linked = {}, None
+            if sound:
+                return "killed", "undefined behaviour in " + os.path.basename(name)
+        return None
 
     def in_order(self, who):
         """programs, the quickest first, of each test its quickest build before the others; as many as patience allows"""
