@@ -311,6 +311,45 @@ static void damping_takes_what_is_lost(void **state)
     }
 }
 
+/* a few particles of a solid, held along any axes and told to move: there where they are told, elsewhere at rest */
+static void a_held_axis_goes_where_it_is_told(void **state)
+{
+    (void)state;
+    for (uint32_t integrator = 0; integrator < SPH_INTEGRATORS; integrator++)
+        for (uint32_t held = 1; held < 1u << SPH_DIM; held++) {
+            sph_config c = config();
+            sph_steady m;
+            double lo[SPH_DIM] = {0}, hi[SPH_DIM], x[SPH_DIM];
+            uint32_t set;
+            c.gravity[SPH_DIM - 1] = 0;
+            c.integrator = integrator;
+            c.solid = SPH_UPDATED;
+            c.dt = 0x1p-10;
+            sph_sim *sim = new_sim(&c);
+            for (int k = 0; k < SPH_DIM; k++) {
+                hi[k] = 0.5;
+                m.v[k] = 1 + k;
+                m.a[k] = 100;
+            }
+            const sph_solid rock = {.shear = 1e4, .held = held, .motion = sph_motion_steady, .motion_ctx = &m};
+            must(sim, sph_add_solid(sim, &rock, &set, NULL));
+            must(sim, sph_add_box(sim, set, lo, hi, NULL));
+            for (int step = 0; step < 3; step++)
+                must(sim, sph_step(sim));
+            const double t = sph_time(sim);
+            for (uint32_t i = 0; i < 1u << SPH_DIM; i++) {
+                const sph_particle p = by_id(sim, i);
+                for (uint32_t k = 0; k < SPH_DIM; k++) {
+                    const double way = held >> k & 1 ? t * (m.v[k] + 50 * t) : 0;
+                    x[k] = (0.5 + (i >> k & 1)) * DX + way;
+                    close_to(p.x[k], x[k], 1e-7);
+                    close_to(p.v[k], held >> k & 1 ? m.v[k] + 100 * t : 0, 1e-6);
+                }
+            }
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
@@ -320,6 +359,7 @@ int main(void)
         subject(what_is_refused_between_steps_is_named),
         subject(motions_are_where_the_manual_says),
         subject(damping_takes_what_is_lost),
+        subject(a_held_axis_goes_where_it_is_told),
         subject(a_motion_must_be_finite_near_and_no_leap),
     };
     return run_subjects("usage", list);
