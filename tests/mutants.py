@@ -25,7 +25,8 @@ import argparse, csv, glob, hashlib, json, os, random, re, resource, shutil, sub
 BUILDS = ["2f", "1d", "3f", "2d", "1f", "3d"]
 GOLDEN = ["2f", "1d", "3f"]
 # commands of the tool, second builds of what costs most, and test_bits, which is the golden runs in many ways
-LEFT_OUT = r"test_(bits|dispersion|gradykipp|fragments|fields|profile|advise|atlas|scenes)_|test_(lists_(1f|3d)|restarts_(1d|3d))$"
+LEFT_OUT = (r"test_(bits|dispersion|gradykipp|fragments|fields|profile|advise|atlas|scenes)_|"
+            r"test_(lists_(1f|3d)|restarts_(1d|3d))$")
 WORK = os.path.join(os.environ.get("BUILD", "build"), "mutants")
 WARN = "-w -Werror=int-conversion -Werror=incompatible-pointer-types -Werror=implicit-function-declaration"
 # the general loop compiles in a third of the time and has the same bits
@@ -104,8 +105,8 @@ def changes(path):
 
 
 def draw(seed, only):
-    """all changes in an order of their own, which other lines of the tree do not alter: (file, line, column, kind, from,
-    to), with the text of the line and its number among lines of that text"""
+    """all changes in an order of their own, which other lines of the tree do not alter: (file, line, column, kind,
+    from, to), with the text of the line and its number among lines of that text"""
     every = []
     for f in sorted(glob.glob("sph/*.c") + glob.glob("sph/*.h")):
         if f == "sph/sph.h" or only and f != only:
@@ -167,7 +168,8 @@ class Tree:
         self.at = os.path.join(WORK, "tree%d" % k)
         copy_tree(self.at)
         golden = ["build/mutants_golden_" + b for b in GOLDEN]
-        said = subprocess.run(MAKE + ["-n", "-B", "tests"] + golden, cwd=self.at, stdout=subprocess.PIPE).stdout.decode()
+        said = subprocess.run(MAKE + ["-n", "-B", "tests"] + golden, cwd=self.at, stdout=subprocess.PIPE)
+        said = said.stdout.decode()
         self.commands, self.inputs, archives, links = {}, {}, {}, {}
         for words in (l.split() for l in said.splitlines()):
             if "-c" in words and "-o" in words:
@@ -182,7 +184,8 @@ class Tree:
                 continue
             if name.endswith("_2d") and name[:-1] + "f" in links:
                 continue  # lines that only double passes are few
-            self.inputs[name] = [o for w in words if w.endswith((".o", ".a")) and "/" in w for o in archives.get(w, [w])]
+            built = [w for w in words if w.endswith((".o", ".a")) and "/" in w]
+            self.inputs[name] = [o for w in built for o in archives.get(w, [w])]
         self.links = {n: self.link_words(links[n]) for n in self.inputs}
         print("mutants: the programs are built", flush=True)
         if subprocess.run(MAKE + ["-j2"] + sorted(self.inputs), cwd=self.at).returncode:
@@ -271,7 +274,8 @@ def lines_of(tree, key, cmd, objects, kept):
     kept["lines"][key] = {f: sorted(v) for f, v in ran.items()}
     if rc:
         kept["seconds"][key] = -1  # fails as it is: says nothing
-    print("  %-32s %6.2f s%s" % (key, kept["seconds"][key], "  fails or takes long as it is: left out" if rc else ""), flush=True)
+    print("  %-32s %6.2f s%s" % (key, kept["seconds"][key], "  fails or takes long as it is: left out" if rc else ""),
+          flush=True)
 
 
 class Known:
@@ -410,7 +414,7 @@ class Worker(threading.Thread):
         return None
 
     def in_order(self, who):
-        """programs, the quickest first, of each test its quickest build before the others; as many as patience allows"""
+        """programs, the quickest first, of each test its quickest build first; as many as patience allows"""
         seconds, seen, order, spent = self.known.seconds, set(), [], 0
         for k in sorted((k for k in who if ":" not in k), key=lambda k: seconds[k]):
             order.append((k[:-3] in seen, seconds[k], k))
