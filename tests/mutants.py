@@ -32,7 +32,7 @@ WARN = "-w -Werror=int-conversion -Werror=incompatible-pointer-types -Werror=imp
 # the general loop compiles in a third of the time and has the same bits
 MAKE = ["make", "-s", "--no-print-directory", "CC=" + os.environ.get("GCC", "gcc"), "OPT=-O1", "WARN=" + WARN,
         "CFLAGS=-DSPH_ASSERTS=1 -DSPH_WITH_FAST_PATHS=0"]
-UNDEFINED = ["-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"]
+UNDEFINED = ["-fsanitize=undefined", "-fsanitize=bounds-strict", "-fsanitize-undefined-trap-on-error"]
 TARGET = 95.0
 QUICK = 5  # s of processor time, with line counters: programs that take longer are not asked
 HEAD = ["file", "line", "column", "kind", "from", "to", "verdict", "by", "code", "note"]

@@ -55,6 +55,13 @@ static void a_fluids_numbers(void **state)
     told(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 1e-16}, &set), "fluid.sound_speed", "1e-15 .. 1e15",
          1e-16);
     told(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 1e16}, &set), "fluid.sound_speed", "1e-15 .. 1e15", 1e16);
+    const double just[] = {1.005e15, 0.995e-15};
+    for (int i = 0; i < 2; i++) {
+        const double v = just[i], w = v * v;
+        told(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = v}, &set), "fluid.sound_speed", "1e-15 .. 1e15", v);
+        told(sim, sph_add_fluid(sim, &(sph_fluid){.mass = w}, &set), "fluid.mass", "1e-30 .. 1e30", w);
+        told(sim, sph_add_fluid(sim, &(sph_fluid){.rho0 = w}, &set), "fluid.rho0", "1e-30 .. 1e30", w);
+    }
     told(sim, sph_add_fluid(sim, &(sph_fluid){.own_eos = true, .eos = SPH_EOSES}, &set), "eos", "SPH_TAIT", SPH_EOSES);
     told(sim, sph_add_fluid(sim, NULL, NULL), "set", "place", 0);
 }

@@ -350,6 +350,52 @@ static void a_held_axis_goes_where_it_is_told(void **state)
         }
 }
 
+/* particles of two fluids far from each other: every total by hand */
+static void totals_are_sums_over_the_particles(void **state)
+{
+    const double mass[4] = {2, 3, 3, 2}, rho[4] = {1004, 990, 1012, 998};
+    sph_config c = open_config(1, DX);
+    double momentum[SPH_DIM] = {0}, kinetic = 0, potential = 0, internal = 0, fastest = 0, spin = 0;
+    uint32_t set[2];
+    sph_totals t;
+    (void)state;
+    c.eos = SPH_LINEAR;
+    c.max_particles = 10;
+    c.gravity[SPH_DIM - 1] = -9;
+    sph_sim *sim = new_sim(&c);
+    for (int s = 0; s < 2; s++)
+        must(sim, sph_add_fluid(sim, &(sph_fluid){.mass = 2 + s}, &set[s]));
+    for (int i = 0; i < 4; i++) {
+        double x[SPH_DIM], v[SPH_DIM], v2 = 0;
+        for (int k = 0; k < SPH_DIM; k++) {
+            x[k] = -0.5 + 0.75 * i;
+            v[k] = (k ? 0.5 : -1) * (i + 1) * (i % 2 ? 1 : -2);
+            v2 += v[k] * v[k];
+            momentum[k] += mass[i] * v[k];
+        }
+        spin += SPH_DIM > 1 ? mass[i] * (x[0] * v[SPH_DIM > 1] - x[SPH_DIM > 1] * v[0]) : 0;
+        kinetic += 0.5 * mass[i] * v2;
+        potential += mass[i] * 9 * x[SPH_DIM - 1];
+        /* integral of p/rho^2 from rho0, p = c^2 (rho - rho0) */
+        internal += mass[i] * 400 * (log(rho[i] / 1000) + 1000 / rho[i] - 1);
+        fastest = v2 > fastest ? v2 : fastest;
+        must(sim, sph_add_particle(sim, set[mass[i] > 2.5], x, v, rho[i], NULL));
+    }
+    sph_get_totals(sim, &t);
+    assert_true(t.fluid == 4 && t.wall == 0 && t.solid == 0);
+    close_to(t.mass, 10, 0);
+    for (int k = 0; k < SPH_DIM; k++)
+        close_to(t.momentum[k], momentum[k], 1e-12);
+    close_to(t.angular[2], spin, 1e-6);
+    close_to(t.kinetic, kinetic, 1e-12 * kinetic);
+    close_to(t.potential, potential, 1e-6);
+    close_to(t.internal, internal, 1e-4 * internal);
+    close_to(t.max_speed, sqrt(fastest), 1e-12);
+    close_to(t.min_density, 990, 1e-3);
+    close_to(t.max_density, 1012, 1e-3);
+    close_to(t.balance, kinetic + potential + internal, 1e-5 * kinetic);
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
@@ -359,6 +405,7 @@ int main(void)
         subject(what_is_refused_between_steps_is_named),
         subject(motions_are_where_the_manual_says),
         subject(damping_takes_what_is_lost),
+        subject(totals_are_sums_over_the_particles),
         subject(a_held_axis_goes_where_it_is_told),
         subject(a_motion_must_be_finite_near_and_no_leap),
     };
