@@ -5,7 +5,8 @@
 A mutant is the kernel with one change in one place of sph/: an operator, a sign, a constant, an index, a bound, a
 statement left out, two arguments swapped. Only what depends on the changed file is compiled, in a copy of the tree;
 then those golden cases run whose runs pass the changed line, then those test programs, the quickest first, until one
-fails. Which lines each passes is known from a build with line counters, made once.
+fails; where none does, the quick ones once more with traps for undefined behaviour, as `make asan` runs them. Which
+lines each passes is known from a build with line counters, made once.
 
   killed    a hash differs, a test fails, or a program dies or hangs; `by` says which
   survived  no test saw it; `by` says how many programs ran the line
@@ -24,12 +25,14 @@ import argparse, csv, glob, hashlib, json, os, random, re, resource, shutil, sub
 BUILDS = ["2f", "1d", "3f", "2d", "1f", "3d"]
 GOLDEN = ["2f", "1d", "3f"]
 # commands of the tool, second builds of what costs most, and test_bits, which is the golden runs in many ways
-LEFT_OUT = r"test_(bits|dispersion|gradykipp|fragments|fields|profile|advise|atlas|scenes)_|test_(lists_(1f|3d)|restarts_(1d|3d))$"
+LEFT_OUT = (r"test_(bits|dispersion|gradykipp|fragments|fields|profile|advise|atlas|scenes)_|"
+            r"test_(lists_(1f|3d)|restarts_(1d|3d))$")
 WORK = os.path.join(os.environ.get("BUILD", "build"), "mutants")
 WARN = "-w -Werror=int-conversion -Werror=incompatible-pointer-types -Werror=implicit-function-declaration"
 # the general loop compiles in a third of the time and has the same bits
 MAKE = ["make", "-s", "--no-print-directory", "CC=" + os.environ.get("GCC", "gcc"), "OPT=-O1", "WARN=" + WARN,
         "CFLAGS=-DSPH_ASSERTS=1 -DSPH_WITH_FAST_PATHS=0"]
+UNDEFINED = ["-fsanitize=undefined", "-fsanitize=bounds-strict", "-fsanitize-undefined-trap-on-error"]
 TARGET = 95.0
 QUICK = 5  # s of processor time, with line counters: programs that take longer are not asked
 HEAD = ["file", "line", "column", "kind", "from", "to", "verdict", "by", "code", "note"]
@@ -102,8 +105,8 @@ def changes(path):
 
 
 def draw(seed, only):
-    """all changes in an order of their own, which other lines of the tree do not alter: (file, line, column, kind, from,
-    to), with the text of the line and its number among lines of that text"""
+    """all changes in an order of their own, which other lines of the tree do not alter: (file, line, column, kind,
+    from, to), with the text of the line and its number among lines of that text"""
     every = []
     for f in sorted(glob.glob("sph/*.c") + glob.glob("sph/*.h")):
         if f == "sph/sph.h" or only and f != only:
@@ -165,7 +168,8 @@ class Tree:
         self.at = os.path.join(WORK, "tree%d" % k)
         copy_tree(self.at)
         golden = ["build/mutants_golden_" + b for b in GOLDEN]
-        said = subprocess.run(MAKE + ["-n", "-B", "tests"] + golden, cwd=self.at, stdout=subprocess.PIPE).stdout.decode()
+        said = subprocess.run(MAKE + ["-n", "-B", "tests"] + golden, cwd=self.at, stdout=subprocess.PIPE)
+        said = said.stdout.decode()
         self.commands, self.inputs, archives, links = {}, {}, {}, {}
         for words in (l.split() for l in said.splitlines()):
             if "-c" in words and "-o" in words:
@@ -180,7 +184,8 @@ class Tree:
                 continue
             if name.endswith("_2d") and name[:-1] + "f" in links:
                 continue  # lines that only double passes are few
-            self.inputs[name] = [o for w in words if w.endswith((".o", ".a")) and "/" in w for o in archives.get(w, [w])]
+            built = [w for w in words if w.endswith((".o", ".a")) and "/" in w]
+            self.inputs[name] = [o for w in built for o in archives.get(w, [w])]
         self.links = {n: self.link_words(links[n]) for n in self.inputs}
         print("mutants: the programs are built", flush=True)
         if subprocess.run(MAKE + ["-j2"] + sorted(self.inputs), cwd=self.at).returncode:
@@ -269,7 +274,8 @@ def lines_of(tree, key, cmd, objects, kept):
     kept["lines"][key] = {f: sorted(v) for f, v in ran.items()}
     if rc:
         kept["seconds"][key] = -1  # fails as it is: says nothing
-    print("  %-32s %6.2f s%s" % (key, kept["seconds"][key], "  fails or takes long as it is: left out" if rc else ""), flush=True)
+    print("  %-32s %6.2f s%s" % (key, kept["seconds"][key], "  fails or takes long as it is: left out" if rc else ""),
+          flush=True)
 
 
 class Known:
@@ -328,12 +334,12 @@ class Worker(threading.Thread):
             words, to = list(self.tree.commands[o]), "fresh/" + o
             os.makedirs(os.path.dirname(os.path.join(self.tree.at, to)), exist_ok=True)
             words[words.index("-o") + 1] = to
-            if run(words, self.tree.at, 120):
+            if run(words + self.extra, self.tree.at, 120):
                 self.fresh[o] = None
             else:
                 same = open(os.path.join(self.tree.at, o), "rb").read() == \
                     open(os.path.join(self.tree.at, to), "rb").read()
-                self.fresh[o] = o if same else to
+                self.fresh[o] = o if same and not self.extra else to
         return self.fresh[o]
 
     def tried(self, name, args, cpu, whole=False):
@@ -353,14 +359,15 @@ class Worker(threading.Thread):
     def judge(self, m):
         path = os.path.join(self.tree.at, m[0])
         whole = open(path).read()
-        self.users, self.fresh, self.linked = self.tree.users.get(m[0], set()), {}, None
+        self.users, self.fresh, self.linked, self.extra = self.tree.users.get(m[0], set()), {}, None, []
         try:
             with open(path, "w") as f:
                 f.write(mutated(m[0], m[1:]))
             first = "build/mutants_golden_2f"
             if any(self.compiled(o) is None for o in self.tree.inputs[first]):
                 return "invalid", ""
-            return self.by_tests(m)
+            verdict, by = self.by_tests(m)
+            return self.undefined(m, path, whole) or (verdict, by) if verdict == "survived" else (verdict, by)
         finally:
             with open(path, "w") as f:
                 f.write(whole)
@@ -384,8 +391,30 @@ class Worker(threading.Thread):
             return "equal", ""
         return "survived", "%d programs ran it" % len(names) if names else "no program runs it"
 
+    def undefined(self, m, path, whole):
+        """does undefined behaviour trap (make asan has the same checks), where it does not without the change?"""
+        seconds, who, self.extra = self.known.seconds, self.known.who(m[0], m[1]), UNDEFINED
+        tries = [("build/mutants_golden_" + b, ["tests/golden.csv"] +
+                  [k.split(":")[1] for k in who if k.startswith("build/mutants_golden_%s:" % b)]) for b in GOLDEN[:2]]
+        tries = [t for t in tries if len(t[1]) > 1] + [(k, []) for k in self.in_order(who) if seconds[k] < 0.5]
+        for name, args in tries:
+            self.linked = None
+            if not self.tried(name, args, 30):
+                continue
+            changed = open(path).read()
+            with open(path, "w") as f:
+                f.write(whole)
+            self.fresh, self.linked = {}, None
+            sound = not self.tried(name, args, 30)
+            with open(path, "w") as f:
+                f.write(changed)
+            self.fresh, self.linked = {}, None
+            if sound:
+                return "killed", "undefined behaviour in " + os.path.basename(name)
+        return None
+
     def in_order(self, who):
-        """programs, the quickest first, of each test its quickest build before the others; as many as patience allows"""
+        """programs, the quickest first, of each test its quickest build first; as many as patience allows"""
         seconds, seen, order, spent = self.known.seconds, set(), [], 0
         for k in sorted((k for k in who if ":" not in k), key=lambda k: seconds[k]):
             order.append((k[:-3] in seen, seconds[k], k))

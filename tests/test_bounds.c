@@ -24,8 +24,8 @@ static void told(const sph_sim *sim, sph_status st, const char *what, const char
     const sph_report *r = sph_last(sim);
     if (st != SPH_BAD_ARGUMENT || strcmp(r->what, what) != 0 || !strstr(r->allowed, allowed) ||
         !(value - value != 0 ? r->value - r->value != 0 : r->value >= value && r->value <= value))
-        fail_msg("%s: %s = %.17g, allowed: %s; wanted %s = %.17g, %s", sph_status_text(st), r->what, r->value, r->allowed,
-                 what, value, allowed);
+        fail_msg("%s: %s = %.17g, allowed: %s; wanted %s = %.17g, %s", sph_status_text(st), r->what, r->value,
+                 r->allowed, what, value, allowed);
 }
 #define next_up(x) nextafter(x, INFINITY)
 #define next_down(x) nextafter(x, -INFINITY)
@@ -52,8 +52,16 @@ static void a_fluids_numbers(void **state)
         told(sim, sph_add_fluid(sim, &(sph_fluid){.mass = v}, &set), "fluid.mass", "1e-30 .. 1e30", v);
         told(sim, sph_add_fluid(sim, &(sph_fluid){.rho0 = v}, &set), "fluid.rho0", "1e-30 .. 1e30", v);
     }
-    told(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 1e-16}, &set), "fluid.sound_speed", "1e-15 .. 1e15", 1e-16);
+    told(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 1e-16}, &set), "fluid.sound_speed", "1e-15 .. 1e15",
+         1e-16);
     told(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 1e16}, &set), "fluid.sound_speed", "1e-15 .. 1e15", 1e16);
+    const double just[] = {1.005e15, 0.995e-15};
+    for (int i = 0; i < 2; i++) {
+        const double v = just[i], w = v * v;
+        told(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = v}, &set), "fluid.sound_speed", "1e-15 .. 1e15", v);
+        told(sim, sph_add_fluid(sim, &(sph_fluid){.mass = w}, &set), "fluid.mass", "1e-30 .. 1e30", w);
+        told(sim, sph_add_fluid(sim, &(sph_fluid){.rho0 = w}, &set), "fluid.rho0", "1e-30 .. 1e30", w);
+    }
     told(sim, sph_add_fluid(sim, &(sph_fluid){.own_eos = true, .eos = SPH_EOSES}, &set), "eos", "SPH_TAIT", SPH_EOSES);
     told(sim, sph_add_fluid(sim, NULL, NULL), "set", "place", 0);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_crossing.c: who is behind the face of a wall, by plain geometry: a slanted wall is a box behind its face, as long
-   and wide as the face and as thick as its layers. Who is in it is counted, named with its depth, removed, or put back
-   a tenth of a spacing before the face, without the speed that leads into the wall. */
+/* test_crossing.c: who is behind the face of a wall, by plain geometry: a slanted wall is a box behind its face, as
+   long and wide as the face and as thick as its layers. Who is in it is counted, named with its depth, removed, or put
+   back a tenth of a spacing before the face, without the speed that leads into the wall. */
 #include "testing.h"
 
 #define DX 0.125

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* test_format.c: a dump is read by the page in sph/dump.h alone, byte for byte, with no part of the kernel's reader:
-   names, units, types, components and values of records and arrays are what the manual and the functions of sph.h say. */
+   names, units, types, components and values of records and arrays are what sph.h and its functions say. */
 #include "testing.h"
 
 #include "fuzz/crc.h"
@@ -448,7 +448,8 @@ static void a_wall_without_a_strength_has_the_usual_one(void **state)
             w.strength = given ? 0.625 : 0;
             must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), true, NULL));
             dump(sim, SPH_DUMP_FULL);
-            const double is = real(field("sets", "strength", "1", F64, 1, 0, 0), F64), want = given ? 0.625 : usual[kind];
+            const double is = real(field("sets", "strength", "1", F64, 1, 0, 0), F64);
+            const double want = given ? 0.625 : usual[kind];
             close_to(is, want, 1e-12 * want);
             const bool layers = kind == SPH_WALL_GHOST || kind == SPH_WALL_ADAMI;
             whole_is("sets", "role", U64, 1, 0, 0, layers ? SPH_ROLE_GHOST : SPH_ROLE_FORCE_WALL);
@@ -542,7 +543,8 @@ static void a_plane_looks_along_e1_x_e2(void **state)
         for (uint32_t k = 0; k < 3; k++) {
             close_to(real(field("sets", "normal", "1", F64, 3, 0, k), F64), n[k], 1e-12);
             close_to(real(field("sets", "tangent", "1", F64, 3, 0, k), F64), e1[k] / 1.5, 1e-12);
-            close_to(real(field("sets", "origin", "m", F64, 3, 0, k), F64), o[k] + 0.5 * (e1[k] + e2[k]) - c.lo[k], 1e-12);
+            close_to(real(field("sets", "origin", "m", F64, 3, 0, k), F64), o[k] + 0.5 * (e1[k] + e2[k]) - c.lo[k],
+                     1e-12);
         }
         close_to(real(field("sets", "half", "m", F64, 2, 0, 0), F64), 0.75, 1e-12);
         close_to(real(field("sets", "half", "m", F64, 2, 0, 1), F64), 0.5, 1e-12);

@@ -202,7 +202,8 @@ static double w_of(double r)
 
 static void a_lone_particle_is_seen_as_its_kernel(void **state)
 {
-    const double rho = 1012, v[3] = {0.5, -0.25, 2}, support = 1.2 * DX * sph_kernel_support(sph_config_default().kernel);
+    const double rho = 1012, v[3] = {0.5, -0.25, 2};
+    const double support = 1.2 * DX * sph_kernel_support(sph_config_default().kernel);
     double at[SPH_DIM];
     (void)state;
     for (int k = 0; k < SPH_DIM; k++)
@@ -240,7 +241,8 @@ static void the_depth_of_a_lone_particle_is_the_integral_of_its_kernel(void **st
     sph_sim *sim = lone(at, NULL, 1000);
     for (uint32_t axis = 0; axis < SPH_DIM; axis++)
         for (int i = 0; i <= 11; i++) {
-            const double d = SPH_DIM == 1 ? 0 : i * 0.1 * support, half = d < support ? sqrt(support * support - d * d) : 0;
+            const double d = SPH_DIM == 1 ? 0 : i * 0.1 * support;
+            const double half = d < support ? sqrt(support * support - d * d) : 0;
             enum { N = 2000 };
             double x[SPH_DIM], depth, sum = 0;
             memcpy(x, at, sizeof x);

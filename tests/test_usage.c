@@ -311,6 +311,91 @@ static void damping_takes_what_is_lost(void **state)
     }
 }
 
+/* a few particles of a solid, held along any axes and told to move: there where they are told, elsewhere at rest */
+static void a_held_axis_goes_where_it_is_told(void **state)
+{
+    (void)state;
+    for (uint32_t integrator = 0; integrator < SPH_INTEGRATORS; integrator++)
+        for (uint32_t held = 1; held < 1u << SPH_DIM; held++) {
+            sph_config c = config();
+            sph_steady m;
+            double lo[SPH_DIM] = {0}, hi[SPH_DIM], x[SPH_DIM];
+            uint32_t set;
+            c.gravity[SPH_DIM - 1] = 0;
+            c.integrator = integrator;
+            c.solid = SPH_UPDATED;
+            c.dt = 0x1p-10;
+            sph_sim *sim = new_sim(&c);
+            for (int k = 0; k < SPH_DIM; k++) {
+                hi[k] = 0.5;
+                m.v[k] = 1 + k;
+                m.a[k] = 100;
+            }
+            const sph_solid rock = {.shear = 1e4, .held = held, .motion = sph_motion_steady, .motion_ctx = &m};
+            must(sim, sph_add_solid(sim, &rock, &set, NULL));
+            must(sim, sph_add_box(sim, set, lo, hi, NULL));
+            for (int step = 0; step < 3; step++)
+                must(sim, sph_step(sim));
+            const double t = sph_time(sim);
+            for (uint32_t i = 0; i < 1u << SPH_DIM; i++) {
+                const sph_particle p = by_id(sim, i);
+                for (uint32_t k = 0; k < SPH_DIM; k++) {
+                    const double way = held >> k & 1 ? t * (m.v[k] + 50 * t) : 0;
+                    x[k] = (0.5 + (i >> k & 1)) * DX + way;
+                    close_to(p.x[k], x[k], 1e-7);
+                    close_to(p.v[k], held >> k & 1 ? m.v[k] + 100 * t : 0, 1e-6);
+                }
+            }
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
+
+/* particles of two fluids far from each other: every total by hand */
+static void totals_are_sums_over_the_particles(void **state)
+{
+    const double mass[4] = {2, 3, 3, 2}, rho[4] = {1004, 990, 1012, 998};
+    sph_config c = open_config(1, DX);
+    double momentum[SPH_DIM] = {0}, kinetic = 0, potential = 0, internal = 0, fastest = 0, spin = 0;
+    uint32_t set[2];
+    sph_totals t;
+    (void)state;
+    c.eos = SPH_LINEAR;
+    c.max_particles = 10;
+    c.gravity[SPH_DIM - 1] = -9;
+    sph_sim *sim = new_sim(&c);
+    for (int s = 0; s < 2; s++)
+        must(sim, sph_add_fluid(sim, &(sph_fluid){.mass = 2 + s}, &set[s]));
+    for (int i = 0; i < 4; i++) {
+        double x[SPH_DIM], v[SPH_DIM], v2 = 0;
+        for (int k = 0; k < SPH_DIM; k++) {
+            x[k] = -0.5 + 0.75 * i;
+            v[k] = (k ? 0.5 : -1) * (i + 1) * (i % 2 ? 1 : -2);
+            v2 += v[k] * v[k];
+            momentum[k] += mass[i] * v[k];
+        }
+        spin += SPH_DIM > 1 ? mass[i] * (x[0] * v[SPH_DIM > 1] - x[SPH_DIM > 1] * v[0]) : 0;
+        kinetic += 0.5 * mass[i] * v2;
+        potential += mass[i] * 9 * x[SPH_DIM - 1];
+        /* integral of p/rho^2 from rho0, p = c^2 (rho - rho0) */
+        internal += mass[i] * 400 * (log(rho[i] / 1000) + 1000 / rho[i] - 1);
+        fastest = v2 > fastest ? v2 : fastest;
+        must(sim, sph_add_particle(sim, set[mass[i] > 2.5], x, v, rho[i], NULL));
+    }
+    sph_get_totals(sim, &t);
+    assert_true(t.fluid == 4 && t.wall == 0 && t.solid == 0);
+    close_to(t.mass, 10, 0);
+    for (int k = 0; k < SPH_DIM; k++)
+        close_to(t.momentum[k], momentum[k], 1e-12);
+    close_to(t.angular[2], spin, 1e-6);
+    close_to(t.kinetic, kinetic, 1e-12 * kinetic);
+    close_to(t.potential, potential, 1e-6);
+    close_to(t.internal, internal, 1e-4 * internal);
+    close_to(t.max_speed, sqrt(fastest), 1e-12);
+    close_to(t.min_density, 990, 1e-3);
+    close_to(t.max_density, 1012, 1e-3);
+    close_to(t.balance, kinetic + potential + internal, 1e-5 * kinetic);
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
@@ -320,6 +405,8 @@ int main(void)
         subject(what_is_refused_between_steps_is_named),
         subject(motions_are_where_the_manual_says),
         subject(damping_takes_what_is_lost),
+        subject(totals_are_sums_over_the_particles),
+        subject(a_held_axis_goes_where_it_is_told),
         subject(a_motion_must_be_finite_near_and_no_leap),
     };
     return run_subjects("usage", list);
