@@ -66,9 +66,9 @@ static const char *broken_object(const sph_object *o)
                                      SPH_DOUBLE ? (sph_real)5.551115123125783e-17 : (sph_real)2.98023224e-8,
                                      -(sph_real)0, 41,
                                      1, 2.220446049250313e-16, 5.551115123125783e-17, -0.0, 49};
-    const uint64_t other = o->knobs ^ SPH_KNOBS_HERE;
+    const uint64_t own[2] = SPH_KNOBS_HERE;
     for (uint32_t k = 0; k < SPH_KNOB_COUNT; k++)
-        if (other >> k & 1)
+        if ((o->knobs[k / 64] ^ own[k / 64]) >> k % 64 & 1)
             return knob_names[k];
     const uint32_t wrong = o->probe(&v);
     for (uint32_t k = 0; k < sizeof texts / sizeof *texts; k++)

@@ -21,7 +21,7 @@ _Static_assert(sizeof 1.0 == sizeof(double), "sph must not be built with -fsingl
     X(adami) X(arithmetic) X(bodies) X(boundary) X(carry) X(columns) X(config) X(correction) X(crossing)           \
     X(damage) X(density) X(digest) X(dmath) X(dump) X(eos) X(faces) X(factors) X(fields) X(flaws) X(forces)        \
     X(format) X(gradient) X(grid) X(groups) X(hash) X(init) X(initial) X(inspect) X(integrators) X(kernels)        \
-    X(layers) X(layout) X(mirror) X(move) X(options) X(powers) X(probes) X(reading) X(records) X(reference)        \
+    X(layers) X(layout) X(mirror) X(mls) X(move) X(options) X(powers) X(probes) X(reading) X(records) X(reference)        \
     X(report) X(restore) X(run) X(settle) X(setup) X(shapes) X(shear) X(smoothing) X(sort) X(sponge) X(state)      \
     X(stream) X(stress) X(sweep) X(threads) X(tiles) X(timestep) X(totals) X(validate) X(yield)
 
@@ -67,13 +67,16 @@ enum {
 #undef SPH_KNOB_BIT
     SPH_KNOB_COUNT
 };
-_Static_assert(SPH_KNOB_COUNT <= 64, "knobs are bits of 64");
-#define SPH_KNOB_SET(name, needs) | (uint64_t)SPH_WITH_##name << SPH_BIT_OF_##name
-#define SPH_KNOBS_HERE (0 SPH_KNOBS(SPH_KNOB_SET))
+_Static_assert(SPH_KNOB_COUNT <= 128, "knobs are bits of two words");
+#define SPH_KNOB_IN_WORD(name, word) \
+    (SPH_BIT_OF_##name / 64 == (word) ? (uint64_t)(SPH_WITH_##name) << SPH_BIT_OF_##name % 64 : 0)
+#define SPH_KNOB_LOW(name, needs) | SPH_KNOB_IN_WORD(name, 0)
+#define SPH_KNOB_HIGH(name, needs) | SPH_KNOB_IN_WORD(name, 1)
+#define SPH_KNOBS_HERE {0 SPH_KNOBS(SPH_KNOB_LOW), 0 SPH_KNOBS(SPH_KNOB_HIGH)}
 
 typedef struct sph_object {
     const char *allowed; /* the words of a refusal, with the object's name */
-    uint64_t knobs;
+    uint64_t knobs[2];
     uint32_t (*probe)(const volatile sph_operands *v);
 } sph_object;
 

@@ -20,7 +20,7 @@ typedef struct bits_case {
     bool hat, held, beside;               /* strain rates smoothed; one end held and pulled; a gas beside the rock */
     uint32_t gradient;
     uint32_t sponge;                      /* SPONGE_... */
-    uint32_t shear;
+    uint32_t shear, filter;
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -120,6 +120,9 @@ static const bits_case bits_cases[] = {
     {"sponge_kick_drift_kick", CASE_BASE, .integrator = SPH_KICK_DRIFT_KICK, .face = SPH_SYMMETRY,
      .sponge = SPONGE_LOW},
     {"sponge_solid", CASE_SOLID, .solid = SPH_UPDATED, .sponge = SPONGE_HIGH},
+    {"mls", CASE_BASE, .shepard = true, .filter = SPH_MLS, .books = true},
+    {"mls_symmetry", CASE_BASE, .shepard = true, .filter = SPH_MLS, .face = SPH_SYMMETRY,
+     .integrator = SPH_KICK_DRIFT_KICK},
     {"nested", .kernel = SPH_WENDLAND_C2, .wall = SPH_WALL_ADAMI, .slip_less = true, .shear = SPH_NESTED,
      .books = true},
     {"nested_weak", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .scheme = SPH_WEAK,
@@ -187,6 +190,7 @@ static sph_config case_config(const bits_case *b)
     c.integrator = b->integrator;
     c.xsph = b->xsph ? 0.5 : 0;
     c.shepard_every = b->shepard ? 3 : 0;
+    c.filter = b->filter;
     c.books = b->books;
     c.pressure_floor = b->floor;
     c.damping = b->damped ? 0.99 : 1;

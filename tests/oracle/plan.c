@@ -346,6 +346,7 @@ void plan_draw(plan *p, uint64_t seed)
     if (p->cfg.scheme == SPH_STANDARD_WICK || p->cfg.scheme == SPH_WEAK_WICK)
         p->steps = p->steps && SPH_DOUBLE ? 1 : 0;
     p->wall_d = chance(0.5) ? 0 : range(0, 0.2);
+    p->cfg.filter = chance(0.5) ? SPH_SHEPARD : SPH_MLS;
     p->cfg.shepard_every = p->cfg.solid == SPH_NO_SOLID && p->cfg.density == SPH_CONTINUITY && chance(0.5) ? 1 : 0;
     p->cfg.max_particles = 4096;
     for (int k = 0; k < SPH_DIM; k++)
@@ -372,7 +373,7 @@ void plan_print(const plan *p)
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->integrator,
            p->steps);
-    printf("  shear %u, cs %g, ci %g\n", c->shear, c->smagorinsky, c->subgrid);
+    printf("  shear %u, cs %g, ci %g, filter %u\n", c->shear, c->smagorinsky, c->subgrid, c->filter);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,
