@@ -44,7 +44,7 @@ static sph_status check_fluids(const sph_config *c, sph_report *r)
         return sph_refuse(r, "shear", "SPH_NO_SHEAR with solids or SPH_MORRIS", c->shear);
     if (SPH_IS(c->shear, NESTED) && !(c->nu > 0))
         return sph_refuse(r, "nu", ">= 0, and > 0 for SPH_NESTED", c->nu);
-    if (SPH_IS(c->density, SUMMATION) && (c->diffusion || c->shepard_every))
+    if (SPH_IS(c->density, SUMMATION) && (c->diffusion || sph_filters(c)))
         return sph_refuse(r, "density", "SPH_CONTINUITY when diffusion or the Shepard filter is on", c->density);
     if (!sph_corrects_fluids(c))
         return SPH_OK;
@@ -71,7 +71,7 @@ static sph_status check_solids(const sph_config *c, sph_report *r)
         return SPH_OK;
     if (c->scheme != SPH_STANDARD && c->scheme != SPH_WEAK)
         return sph_refuse(r, "scheme", "SPH_STANDARD or SPH_WEAK with solids", c->scheme);
-    if (c->density != SPH_CONTINUITY || c->shepard_every)
+    if (c->density != SPH_CONTINUITY || sph_filters(c))
         return sph_refuse(r, "density", "SPH_CONTINUITY, without the Shepard filter, with solids", c->density);
     if (sph_is_total(c) && c->artificial_stress)
         return sph_refuse(r, "artificial_stress", "none with SPH_TOTAL", c->artificial_stress);

@@ -42,12 +42,6 @@ static bool sums_density(const sph_sim *sim) { return sph_sums_density(&sim->cfg
 const sph_pass sph_pass_summation = {"summation", sph_sweep_chunks, summation_chunk, NULL, sums_density};
 #endif
 
-static bool filters_now(const sph_sim *sim)
-{
-    const uint32_t every = sim->cfg.shepard_every;
-    return SPH_WITH_SHEPARD && every && sim->next.step && sim->next.step % every == 0;
-}
-
 #if SPH_WITH_SHEPARD
 SPH_INLINE void shepard_pair(const void *what, uint32_t j, vreal *s)
 {
@@ -81,14 +75,15 @@ static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          SPH_WITH_SEVERAL_FLUIDS && sim->mixed ? SPH_APART_KIN : 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
-const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, filters_now};
+static bool shepard_now(const sph_sim *sim) { return !SPH_IS(sim->cfg.filter, MLS) && sph_filters_now(sim); }
+const sph_pass sph_pass_shepard = {"shepard", sph_sweep_chunks, shepard_chunk, NULL, shepard_now};
 #endif
 
 /* whether what the filter takes is on the books: not where Runge-Kutta's second stage filters densities that it does
    not keep */
 static bool books_filter(const sph_sim *sim)
 {
-    return sph_keeps_books(&sim->cfg) && filters_now(sim) && sim->src == sim->cur;
+    return sph_keeps_books(&sim->cfg) && sph_filters_now(sim) && sim->src == sim->cur;
 }
 
 /* the new density becomes the density; in its own pass, because neighbours read the old one */
@@ -114,7 +109,7 @@ static sph_status copy_density_end(sph_sim *sim)
         sim->next.filtered += sph_sum_rows(sim, JUMP_FILTERED);
     return SPH_OK;
 }
-static bool copies_density(const sph_sim *sim) { return filters_now(sim) || sph_sums_density(&sim->cfg); }
+static bool copies_density(const sph_sim *sim) { return sph_filters_now(sim) || sph_sums_density(&sim->cfg); }
 const sph_pass sph_pass_copy_density = {"copy density", sph_local_chunks, copy_density_chunk, copy_density_end,
                                        copies_density};
 #endif

@@ -239,7 +239,8 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 
 #define SORT &sph_pass_count, &sph_pass_scatter, &pass_carry
 #define DENSITIES                                                                                                  \
-    MODULE(SPH_WITH_SHEPARD, sph_pass_shepard), MODULE(SPH_WITH_SUMMATION, sph_pass_summation),                    \
+    MODULE(SPH_WITH_SHEPARD, sph_pass_shepard), MODULE(SPH_WITH_MLS, sph_pass_mls),                                \
+        MODULE(SPH_WITH_SUMMATION, sph_pass_summation),                                                            \
         MODULE(SPH_HAS_FILTERS, sph_pass_copy_density)
 #define FORCES                                                                                                     \
     MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami), MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami_copy),                 \

@@ -235,6 +235,7 @@ _Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 &
 #define SPH_YIELDS_IN (1 << SPH_NO_YIELD | SPH_HAS_YIELD << SPH_VON_MISES | SPH_HAS_YIELD << SPH_VON_MISES_GRAY)
 #define SPH_DAMAGES_IN                                                                                      \
     (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
+#define SPH_FILTERS_IN (1 << SPH_SHEPARD | SPH_WITH_MLS << SPH_MLS)
 #define SPH_SHEARS_IN                                                                                       \
     (1 << SPH_NO_SHEAR | SPH_WITH_NESTED << SPH_NESTED | SPH_WITH_SMAGORINSKY << SPH_SMAGORINSKY |          \
      SPH_WITH_SMAGORINSKY_WICK << SPH_SMAGORINSKY_WICK)
@@ -266,7 +267,10 @@ SPH_INLINE bool sph_has_any_mirrors(const sph_config *c)
            (SPH_DIM > 2 && sph_has_mirrors(c, SPH_DIM - 1));
 }
 SPH_INLINE bool sph_shifts(const sph_config *c) { return SPH_WITH_SHIFTING && c->shifting > 0; }
-SPH_INLINE bool sph_filters(const sph_config *c) { return SPH_WITH_SHEPARD && c->shepard_every != 0; }
+SPH_INLINE bool sph_filters(const sph_config *c)
+{
+    return SPH_WITH_SHEPARD && (c->shepard_every != 0 || c->filter_period > 0);
+}
 
 SPH_INLINE bool sph_has_solids(const sph_config *c) { return SPH_WITH_SOLID && c->solid != SPH_NO_SOLID; }
 /* predictor-corrector, fluids: the change of the rate of density is foreseen (kick.h) */
@@ -465,6 +469,17 @@ SPH_INLINE double sph_work_of(const sph_sim *sim, double before, double power)
 {
     const bool middle = SPH_HAS_RUNGE_KUTTA && sim->stage->at < 1;
     return middle ? sim->dt * power : 0.5 * sim->dt * (before + power);
+}
+
+/* whether the density is made anew in the step under way: every so many steps, or when a period has passed */
+SPH_INLINE bool sph_filters_now(const sph_sim *sim)
+{
+    const sph_config *const c = &sim->cfg;
+    if (!sph_filters(c) || !sim->next.step)
+        return false;
+    const bool turn = c->shepard_every && sim->next.step % c->shepard_every == 0;
+    return turn || (c->filter_period > 0 && (uint64_t)(sim->next.time / c->filter_period) >
+                                                (uint64_t)(sim->now.time / c->filter_period));
 }
 
 /* displacement of a group, quanta; the shorter way round a periodic axis, of one that is less than 3/2 of it long; and

@@ -55,6 +55,9 @@
 #ifndef SPH_WITH_SHEPARD
 #define SPH_WITH_SHEPARD SPH_WITH_ALL
 #endif
+#ifndef SPH_WITH_MLS
+#define SPH_WITH_MLS (SPH_WITH_ALL && SPH_WITH_SHEPARD)
+#endif
 #ifndef SPH_WITH_XSPH
 #define SPH_WITH_XSPH SPH_WITH_ALL
 #endif

@@ -26,6 +26,7 @@
     X(WEAK_WICK, 1)                                                                                        \
     X(SUMMATION, 1) /* density by summation */                                                             \
     X(SHEPARD, 1) /* the Shepard filter */                                                                 \
+    X(MLS, SPH_WITH_SHEPARD) /* density anew by moving least squares */                                    \
     X(XSPH, 1) /* velocities smoothed over neighbours */                                                   \
     X(TAIT, 1) /* equations of state */                                                                    \
     X(TAIT_GRAY, 1)                                                                                        \

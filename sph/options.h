@@ -98,6 +98,10 @@
     P(A, shepard_every, WHOLE, 0, 0, 4294967296.0f, SPH_WITH_SHEPARD, "a whole number", FIXED, "steps",               \
       "Shepard density filter every so many steps; 0: never", /* Wickramarachchi 6.3 */                               \
       "shepard", "steps", 0, 1e9, USUAL)                                                                              \
+    P(A, filter, CHOICE, SPH_SHEPARD, 0, SPH_FILTERS, SPH_FILTERS_IN, "SPH_SHEPARD or SPH_MLS", FIXED, "-",           \
+      "how the density is made anew: shepard mls", "filter", "-", 0, SPH_FILTERS - 1, USUAL)                          \
+    P(A, filter_period, REAL, 0, 0, SPH_HUGE, SPH_WITH_SHEPARD, ">= 0", FIXED, "s",                                   \
+      "the density filter so often; 0: by steps", "filter_period", "s", 0, 1e9, USUAL)                                \
     O(A, gravity, VECTOR, 0, -1e15f, 1e15f, true, "finite", FREE, "m/s^2", "acceleration of gravity")                 \
                                                                                                                       \
     /* time */                                                                                                        \

@@ -13,6 +13,8 @@
 /* density.c */
 #define sph_pass_summation SPH_NAME(pass_summation_)
 #define sph_pass_shepard SPH_NAME(pass_shepard_)
+/* mls.c */
+#define sph_pass_mls SPH_NAME(pass_mls_)
 #define sph_pass_copy_density SPH_NAME(pass_copy_density_)
 /* adami.c */
 #define sph_pass_adami SPH_NAME(pass_adami_)
@@ -27,6 +29,6 @@
 #define sph_pass_shear SPH_NAME(pass_shear_)
 extern const sph_pass sph_pass_count, sph_pass_scatter, sph_pass_force, sph_pass_summation, sph_pass_shepard,
     sph_pass_copy_density, sph_pass_adami, sph_pass_adami_copy, sph_pass_correction, sph_pass_smooth, sph_pass_gradient,
-    sph_pass_cover, sph_pass_quadrature, sph_pass_shear;
+    sph_pass_cover, sph_pass_quadrature, sph_pass_shear, sph_pass_mls;
 
 #endif

@@ -186,6 +186,11 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
    1)/2 reals a particle; where neighbours do not span space the plain gradient is taken (gradient.c). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
+/* How the density is made anew every shepard_every steps, or each time that filter_period (s) has passed (not beside
+   solids or summed density). SHEPARD: the mean of the neighbours' by W (Wickramarachchi 2009 eq 6.3). MLS: moving least
+   squares of order 1, exact for densities that are linear in place (his A.4.1-A.4.7). */
+enum { SPH_SHEPARD, SPH_MLS, SPH_FILTERS };
+
 /* Viscous stress of fluids (scenes without solids), beside or instead of a viscosity above (not MORRIS, which takes the
    same nu). NESTED: tau = 2 rho nu (S - tr S/3) of the gradient of the velocity (Wickramarachchi 2009 eqs 5.4-5.12, in
    a form that keeps momentum and energy). SMAGORINSKY: large eddies, nu + (smagorinsky dx)^2 |S| for nu, and a pressure

@@ -22,7 +22,7 @@ typedef struct bits_case {
     uint32_t sponge;                      /* SPONGE_... */
     bool shifting;
     bool flat;                            /* weights beside flat faces: none in 1-D */
-    uint32_t shear;
+    uint32_t shear, filter;
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -134,6 +134,9 @@ static const bits_case bits_cases[] = {
      .solid = SPH_TOTAL, .integrator = SPH_KICK_DRIFT_KICK, .held = true, .books = true, .flat = true},
     {"quadrature_corrected", CASE_SOLID, .solid = SPH_CORRECTED, .face = SPH_SYMMETRY, .yield = SPH_VON_MISES,
      .flat = true},
+    {"mls", CASE_BASE, .shepard = true, .filter = SPH_MLS, .books = true},
+    {"mls_symmetry", CASE_BASE, .shepard = true, .filter = SPH_MLS, .face = SPH_SYMMETRY,
+     .integrator = SPH_KICK_DRIFT_KICK},
     {"nested", .kernel = SPH_WENDLAND_C2, .wall = SPH_WALL_ADAMI, .slip_less = true, .shear = SPH_NESTED,
      .books = true},
     {"nested_weak", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .scheme = SPH_WEAK,
@@ -201,6 +204,7 @@ static sph_config case_config(const bits_case *b)
     c.integrator = b->integrator;
     c.xsph = b->xsph ? 0.5 : 0;
     c.shepard_every = b->shepard ? 3 : 0;
+    c.filter = b->filter;
     c.books = b->books;
     c.pressure_floor = b->floor;
     c.damping = b->damped ? 0.99 : 1;

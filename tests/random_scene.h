@@ -43,6 +43,8 @@ static UNUSED void scene_fluids(sph_config *c)
     if (c->density == SPH_CONTINUITY) {
         c->diffusion = scene_draw(SPH_DIFFUSIONS);
         c->shepard_every = scene_one_in(3) ? 2 : 0;
+        c->filter = scene_draw(SPH_FILTERS);
+        c->filter_period = scene_one_in(5) ? 1.5e-3 : 0;
         c->gradient = scene_one_in(3) && (c->scheme == SPH_STANDARD || c->scheme == SPH_WEAK) ? 1 + scene_draw(2) : 0;
     }
 }

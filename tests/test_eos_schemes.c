@@ -342,6 +342,39 @@ static void the_shepard_filter_keeps_a_constant(void **state)
         close_to(by_id(sim, i).rho, 1010, 64 * EPS * (SPH_DOUBLE ? 1000 : 10)); /* rounding of the excess */
 }
 
+static void sloping(void *ctx, const double *x, double *v, double *rho)
+{
+    (void)ctx, (void)v;
+    *rho = 1003;
+    for (int k = 0; k < SPH_DIM; k++)
+        *rho += (4 - 3 * k) * x[k];
+}
+/* also at the free surface, where the Shepard filter's mean is one-sided */
+static void moving_least_squares_keep_a_linear_density(void **state)
+{
+    (void)state;
+    for (uint32_t filter = SPH_SHEPARD; filter <= SPH_MLS; filter++) {
+        sph_config c = open_config(N * DX, DX);
+        double worst = 0;
+        c.filter = filter;
+        c.shepard_every = 1;
+        c.dt = 1e-9;
+        sph_sim *sim = lattice(&c, sloping);
+        for (int k = 0; k < 3; k++)
+            must(sim, sph_step(sim));
+        for (uint32_t i = 0; i < sph_count(sim); i++) {
+            const sph_particle p = by_id(sim, i);
+            double v[SPH_DIM], rho;
+            sloping(NULL, p.x, v, &rho);
+            worst = fmax(worst, fabs(p.rho - rho));
+        }
+        if (filter == SPH_MLS)
+            close_to(worst, 0, 256 * EPS * 1000);
+        else
+            assert_true(worst > 0.1 * DX);
+    }
+}
+
 static void bump(void *ctx, const double *x, double *v, double *rho)
 {
     double r2 = 0;
@@ -349,6 +382,27 @@ static void bump(void *ctx, const double *x, double *v, double *rho)
     for (int k = 0; k < SPH_DIM; k++)
         r2 += (x[k] - 0.5 * N * DX) * (x[k] - 0.5 * N * DX);
     *rho = 1000 + 5 * exp(-r2 / (4 * DX * DX));
+}
+static void a_filter_with_a_period_acts_when_it_has_passed(void **state)
+{
+    const double dt = 1e-9;
+    (void)state;
+    for (uint32_t filter = SPH_SHEPARD; filter <= SPH_MLS; filter++) {
+        sph_config c = open_config(N * DX, DX);
+        c.filter = filter;
+        c.filter_period = 2.5 * dt;
+        c.dt = dt;
+        sph_sim *sim = lattice(&c, bump);
+        const uint32_t id = middle(sim);
+        must(sim, sph_ready(sim));
+        for (int k = 1; k <= 6; k++) { /* times of 3 and 5 steps are the first behind 2.5 and 5 */
+            const double before = by_id(sim, id).rho;
+            must(sim, sph_step(sim));
+            const bool acted = fabs(by_id(sim, id).rho - before) > 0.01;
+            const double share = k * dt / c.filter_period, last = (k - 1) * dt / c.filter_period;
+            assert_true(acted == (floor(share) > floor(last)));
+        }
+    }
 }
 static void diffusion_lowers_a_bump_and_raises_its_foot(void **state)
 {
@@ -523,6 +577,8 @@ int main(void)
         subject(a_linear_pressure_gives_its_gradient),
         subject(summed_density_is_the_sum),
         subject(the_shepard_filter_keeps_a_constant),
+        subject(moving_least_squares_keep_a_linear_density),
+        subject(a_filter_with_a_period_acts_when_it_has_passed),
         subject(diffusion_lowers_a_bump_and_raises_its_foot),
         subject(xsph_moves_a_particle_with_its_neighbours),
 #if SPH_DIM > 1

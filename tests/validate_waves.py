@@ -93,7 +93,7 @@ def cases(quick):
     # W4: Wickramarachchi's mounds in a tank of 12 m (wave_wick_mounds.csv; k and B in depths)
     for depth, k, b, speed, height in ((0.15, 2.5, 0.07, 1.333, 0.02717), (0.20, 2.5, 0.07, 1.477, 0.02323),
                                        (0.20, 1.5, 0.25, 1.831, 0.1361))[:1 if quick else 3]:
-        run = Wave(start="mound", depth=depth, length=12 / depth, mound_b=b / depth, mound_k=k * depth, every=0.05,
+        run = Wave(start="mound", depth=depth, length=16 / depth, mound_b=b / depth, mound_k=k * depth, every=0.05,
                    end=7, **CHEAPEST)
         name = f"W4 mound H={depth} k={k}"
         add(f"{name}: speed over 3 to 7 s", "% of potential flow", 3.0, [run],

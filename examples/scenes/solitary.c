@@ -192,16 +192,18 @@ static const char *const column[] = {
 /* a column's height from its mass, over the bed (m) */
 static double risen(const double *p, double mass) { return mass / pressed(p, mass / p[DEPTH] - 1); }
 
-/* Surface at a wall (m above still water): even about the wall, so from those one and two supports off it, where the
-   gauge sees water on both sides. The mass near a wall would not do: water may stand nearer to it than its spacing. */
+/* Surface at a wall (m above still water): it is even about the wall, so from those one, two and three supports off it,
+   where the gauge sees water on both sides, by the even polynomial of fourth order. The mass near a wall would not do:
+   water may stand nearer to it than its spacing. */
 static double wall_surface(const sph_sim *sim, const double *p, double wall, double inward)
 {
     const double off = inward * sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * spacing(p);
-    const double near[2] = {wall + off, 0}, far[2] = {wall + 2 * off, 0};
-    double a = 0, b = 0;
-    sph_surface(sim, near, 1, &a);
-    sph_surface(sim, far, 1, &b);
-    return (4 * a - b) / 3 - p[DEPTH];
+    double h[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        const double bed[2] = {wall + (k + 1) * off, 0};
+        sph_surface(sim, bed, 1, &h[k]);
+    }
+    return (15 * h[0] - 6 * h[1] + h[2]) / 10 - p[DEPTH];
 }
 
 static void history(const sph_sim *sim, const double *p, double *row)

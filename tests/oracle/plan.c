@@ -363,6 +363,7 @@ void plan_draw(plan *p, uint64_t seed)
     if (p->cfg.scheme == SPH_STANDARD_WICK || p->cfg.scheme == SPH_WEAK_WICK)
         p->steps = p->steps && SPH_DOUBLE ? 1 : 0;
     p->wall_d = chance(0.5) ? 0 : range(0, 0.2);
+    p->cfg.filter = chance(0.5) ? SPH_SHEPARD : SPH_MLS;
     p->cfg.shepard_every = p->cfg.solid == SPH_NO_SOLID && p->cfg.density == SPH_CONTINUITY && chance(0.5) ? 1 : 0;
     p->cfg.max_particles = 4096;
     for (int k = 0; k < SPH_DIM; k++)
@@ -394,9 +395,15 @@ void plan_print(const plan *p)
            "xsph %g, shifting %g, integrator %u, steps %u\n",
            (unsigned long long)p->seed, word[1][c->kernel], c->smoothing_length, c->spacing, c->rho0, c->sound_speed,
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
+<<<<<<< HEAD
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
            c->integrator, p->steps);
     printf("  shear %u, cs %g, ci %g\n", c->shear, c->smagorinsky, c->subgrid);
+=======
+           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->integrator,
+           p->steps);
+    printf("  shear %u, cs %g, ci %g, filter %u\n", c->shear, c->smagorinsky, c->subgrid, c->filter);
+>>>>>>> part_waves
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,
