@@ -395,15 +395,9 @@ void plan_print(const plan *p)
            "xsph %g, shifting %g, integrator %u, steps %u\n",
            (unsigned long long)p->seed, word[1][c->kernel], c->smoothing_length, c->spacing, c->rho0, c->sound_speed,
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
-<<<<<<< HEAD
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
            c->integrator, p->steps);
-    printf("  shear %u, cs %g, ci %g\n", c->shear, c->smagorinsky, c->subgrid);
-=======
-           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->integrator,
-           p->steps);
     printf("  shear %u, cs %g, ci %g, filter %u\n", c->shear, c->smagorinsky, c->subgrid, c->filter);
->>>>>>> part_waves
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,
