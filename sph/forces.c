@@ -658,6 +658,8 @@ static uint32_t columns_of(const sph_choice *c)
 
 static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
+    if (!SPH_SMALL && sph_is_empty_chunk(sim, chunk, t))
+        return;
     const sph_choice c = choice_of(sim, true);
     const bool points = sph_takes_forces(&c);
     const sph_sweep w = {is_force_home,

@@ -339,9 +339,25 @@ uint32_t sph_local_chunks(const sph_sim *sim)
     return (sim->next.count + SPH_LOCAL_CHUNK - 1) / SPH_LOCAL_CHUNK;
 }
 
+static uint32_t end_of_chunk(const sph_sim *sim, uint32_t cell)
+{
+    const uint32_t left = sim->grid.cells - cell;
+    return cell + (left < sim->chunk_cells ? left : sim->chunk_cells);
+}
+bool sph_is_empty_chunk(const sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const uint32_t cell = chunk * sim->chunk_cells;
+    if (sim->cell[cell] != sim->cell[end_of_chunk(sim, cell)])
+        return false;
+    t->work += sim->chunk_cells;
+    return true;
+}
+
 void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_thread *t)
 {
     filling f;
+    if (!SPH_SMALL && sph_is_empty_chunk(sim, chunk, t))
+        return;
     f.sim = sim;
     f.w = w;
     f.t = t;
@@ -351,7 +367,7 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     SPH_ASSERT(w->sums >> SPH_SUMS == 0 && w->columns >> SPH_COLUMN_COUNT == 0);
     uint64_t before = t->pairs;
     uint32_t cell = chunk * sim->chunk_cells, c[3] = {0}, q = cell;
-    const uint32_t left = sim->grid.cells - cell, last = cell + (left < sim->chunk_cells ? left : sim->chunk_cells);
+    const uint32_t last = end_of_chunk(sim, cell);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         c[k] = q % sim->grid.ncell[k];
         q /= sim->grid.ncell[k];
