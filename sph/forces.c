@@ -670,7 +670,7 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          force_tile,
                          force_finish,
                          SPH_HAS_APART ? kept_apart(sim) : 0,
-                         c.total ? 1 + SPH_COLUMN_reference : 0};
+                         SPH_SIFTS && SPH_HAS_TOTAL && c.total ? 1 + SPH_COLUMN_reference : 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 

@@ -246,6 +246,7 @@ static void add_all(filling *f, const uint32_t *c)
 
 #if SPH_SIFTS
 /* homes are loaded as candidates are, where no candidates stand yet */
+static void note_sweep(sph_thread *t, const sph_sweep *w) { t->sifted.sweep = w; }
 #define HOMES_LOADED(t) (&(t)->bodies)
 static void copy_homes(sph_thread *t)
 {
@@ -261,6 +262,7 @@ static void copy_homes(sph_thread *t)
     memcpy(to->inv_rho, from->inv_rho, sizeof to->inv_rho);
 }
 #else
+#define note_sweep(t, w) ((void)(t), (void)(w))
 #define HOMES_LOADED(t) (&(t)->home)
 #define copy_homes(t) ((void)(t))
 #endif
@@ -361,7 +363,7 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     f.sim = sim;
     f.w = w;
     f.t = t;
-    t->sweep = w;
+    note_sweep(t, w);
     f.b = &sim->buf[sim->dst];
     f.homes = 0;
     SPH_ASSERT(w->sums >> SPH_SUMS == 0 && w->columns >> SPH_COLUMN_COUNT == 0);
