@@ -726,6 +726,8 @@ static uint32_t columns_of(const sph_choice *c)
 
 static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
+    if (!SPH_SMALL && sph_is_empty_chunk(sim, chunk, t))
+        return;
     const sph_choice c = choice_of(sim, true);
     const bool points = sph_takes_forces(&c);
     const sph_sweep w = {is_force_home,
@@ -736,7 +738,7 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          force_tile,
                          force_finish,
                          SPH_HAS_APART ? kept_apart(sim) : 0,
-                         c.total ? 1 + SPH_COLUMN_reference : 0};
+                         SPH_SIFTS && SPH_HAS_TOTAL && c.total ? 1 + SPH_COLUMN_reference : 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 

@@ -249,6 +249,9 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 
 /* A density that is summed is of where particles are: Runge-Kutta, which moves them last, sums it once more. */
 #define SUMMED(pass) (SPH_WITH_SUMMATION ? (pass) : NULL)
+#define SUM_AGAIN                                                                                                  \
+    SUMMED(&pass_begin_look), SUMMED(&sph_pass_count), SUMMED(&sph_pass_scatter), SUMMED(&pass_carry), DENSITIES,  \
+        SUMMED(&pass_look)
 
 /* what a step ends with */
 #define END(pass)                                                                                                  \
@@ -262,9 +265,8 @@ static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITI
 static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),
-                           SUMMED(&pass_begin_look), SUMMED(&sph_pass_count), SUMMED(&sph_pass_scatter),
-                           SUMMED(&pass_carry), DENSITIES, SUMMED(&pass_look)};
-enum { SUMMING = 5 + 3 }; /* those that only summed density needs: what stands in the line above END's */
+                           SUM_AGAIN};
+enum { SUMMING = sizeof((const sph_pass *const[]){SUM_AGAIN}) / sizeof(const sph_pass *) };
 
 /* ---- the table ---- */
 

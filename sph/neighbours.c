@@ -100,7 +100,7 @@ SPH_INLINE void write_record(const sph_tile *tile, uint32_t j, sph_real *r)
 void sph_sift_tile(const sph_sim *sim, sph_thread *t, sph_tile *tile, uint32_t homes)
 {
     sph_sifted *const s = &t->sifted;
-    const bool other = tile == &t->bodies && t->sweep->other_place;
+    const bool other = tile == &t->bodies && t->sifted.sweep->other_place;
     s->kept = other ? keep_all(tile, s->at) : keep(sim, tile, box_of(&t->home, homes), s->at);
     write_record(tile, tile->n, s->record[s->kept]); /* as sph_close_tile made it */
     s->at[s->kept] = (uint16_t)tile->n;
@@ -154,7 +154,7 @@ SPH_INLINE uint32_t list_within(const sph_sim *sim, sph_sifted *s, const view *i
 
 uint32_t sph_find_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t home)
 {
-    const uint32_t other = tile == &t->bodies ? t->sweep->other_place : 0;
+    const uint32_t other = tile == &t->bodies ? t->sifted.sweep->other_place : 0;
     view is, was;
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++) {
@@ -178,7 +178,7 @@ static __attribute__((noinline)) void take_sets(const sph_sim *sim, sph_thread *
 {
     const uint16_t *const at = t->sifted.at;
     for (uint32_t c = 0; c < SPH_COLUMN_COUNT; c++) {
-        const bool asked = t->sweep->columns >> c & 1 && sim->columns[c].ghosts == ghosts;
+        const bool asked = t->sifted.sweep->columns >> c & 1 && sim->columns[c].ghosts == ghosts;
         const sph_real *from = sph_columns_of(sim, t, c);
         sph_real *to = sph_near_columns_of(sim, t, c);
         for (uint32_t r = 0; asked && r < sim->columns[c].rows; r++, from += SPH_TILE_ROOM, to += SPH_NEAR_ROOM)
@@ -203,7 +203,7 @@ uint32_t sph_take_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *
         v_turn(four, 4, velocities, 2);
         v_turn(four, 6, others, 4);
     }
-    if (t->sweep->columns)
+    if (t->sifted.sweep->columns)
         take_sets(sim, t, tile == &t->ghosts, list, n);
     return n;
 }

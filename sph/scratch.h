@@ -52,6 +52,7 @@ typedef struct sph_home_tile {
     SPH_TILE_ROWS(SPH_HOME_ROOM);
 } sph_home_tile;
 typedef struct sph_sifted {
+    const struct sph_sweep *sweep;
     sph_near_tile near;                             /* neighbours of a home */
     sph_real record[SPH_TILE + 1][SPH_TILE_WIDTH];  /* what candidates bring that any home can reach, and at the end one
                                                        far away, as in a tile, but side by side */
@@ -91,7 +92,6 @@ typedef struct sph_thread {
 #if SPH_SIFTS
             sph_sifted sifted;
 #endif
-            const struct sph_sweep *sweep;
             sph_points points;
             uint32_t home_at[SPH_HOMES]; /* index of the home particle */
             uint8_t home_set[SPH_HOMES];

@@ -169,6 +169,33 @@ static void put_run(const sph_buffer *b, const sph_block *o, const uint8_t *set,
         b->id[0][at + l] = i + j + l;
 }
 
+/* room without particles: eight cells at a time */
+SPH_INLINE bool are_eight_zero(const uint32_t *cell)
+{
+    uint64_t two[4];
+    memcpy(two, cell, sizeof two);
+    return ((two[0] | two[1]) | (two[2] | two[3])) == 0;
+}
+SPH_INLINE void set_eight(uint32_t *cell, uint32_t value)
+{
+    const uint64_t two = value * (uint64_t)0x100000001;
+    SPH_UNROLL
+    for (uint32_t k = 0; k < 8; k += 2)
+        memcpy(cell + k, &two, sizeof two);
+}
+
+/* counts of n cells become starts, from `first` on; filling turns them into the next cell's start */
+static void starts_of_counts(uint32_t *cell, uint32_t n, uint32_t first)
+{
+    for (uint32_t c = 0; c < n; c++) {
+        for (; !SPH_SMALL && c + 8 < n && are_eight_zero(cell + c); c += 8)
+            set_eight(cell + c, first);
+        const uint32_t count = cell[c];
+        cell[c] = first;
+        first += count;
+    }
+}
+
 static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
 {
     const sph_move a = sph_stage_move(sim);
@@ -177,12 +204,8 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
     const sph_buffer *b = &sim->buf[sim->dst];
     uint32_t *const cell = sim->cell, run = sim->range_count[r];
     const uint8_t *set = sim->buf[sim->src].set[0];
-    uint32_t first = run, *const at = t->block.to;
-    for (uint32_t c = c0; c < c1; c++) { /* counts become starts; filling turns them into the next cell's start */
-        uint32_t n = cell[c + 1];
-        cell[c + 1] = first;
-        first += n;
-    }
+    uint32_t *const at = t->block.to;
+    starts_of_counts(cell + 1 + c0, c1 - c0, run);
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += SPH_BLOCK) {
             const uint32_t n = g.to[p] - i < SPH_BLOCK ? g.to[p] - i : SPH_BLOCK;
@@ -209,6 +232,8 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
         }
     uint32_t start = run, widest = 0;
     for (uint32_t c = c0; c < c1; c++) {
+        while (!SPH_SMALL && c + 8 < c1 && cell[c + 8] == start)
+            c += 8; /* eight empty cells */
         uint32_t end = cell[c + 1];
         widest = end - start > widest ? end - start : widest;
         order_cell(sim, start, end);

@@ -246,6 +246,7 @@ static void add_all(filling *f, const uint32_t *c)
 
 #if SPH_SIFTS
 /* homes are loaded as candidates are, where no candidates stand yet */
+static void note_sweep(sph_thread *t, const sph_sweep *w) { t->sifted.sweep = w; }
 #define HOMES_LOADED(t) (&(t)->bodies)
 static void copy_homes(sph_thread *t)
 {
@@ -261,6 +262,7 @@ static void copy_homes(sph_thread *t)
     memcpy(to->inv_rho, from->inv_rho, sizeof to->inv_rho);
 }
 #else
+#define note_sweep(t, w) ((void)(t), (void)(w))
 #define HOMES_LOADED(t) (&(t)->home)
 #define copy_homes(t) ((void)(t))
 #endif
@@ -339,19 +341,35 @@ uint32_t sph_local_chunks(const sph_sim *sim)
     return (sim->next.count + SPH_LOCAL_CHUNK - 1) / SPH_LOCAL_CHUNK;
 }
 
+static uint32_t end_of_chunk(const sph_sim *sim, uint32_t cell)
+{
+    const uint32_t left = sim->grid.cells - cell;
+    return cell + (left < sim->chunk_cells ? left : sim->chunk_cells);
+}
+bool sph_is_empty_chunk(const sph_sim *sim, uint32_t chunk, sph_thread *t)
+{
+    const uint32_t cell = chunk * sim->chunk_cells;
+    if (sim->cell[cell] != sim->cell[end_of_chunk(sim, cell)])
+        return false;
+    t->work += sim->chunk_cells;
+    return true;
+}
+
 void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_thread *t)
 {
     filling f;
+    if (!SPH_SMALL && sph_is_empty_chunk(sim, chunk, t))
+        return;
     f.sim = sim;
     f.w = w;
     f.t = t;
-    t->sweep = w;
+    note_sweep(t, w);
     f.b = &sim->buf[sim->dst];
     f.homes = 0;
     SPH_ASSERT(w->sums >> SPH_SUMS == 0 && w->columns >> SPH_COLUMN_COUNT == 0);
     uint64_t before = t->pairs;
     uint32_t cell = chunk * sim->chunk_cells, c[3] = {0}, q = cell;
-    const uint32_t left = sim->grid.cells - cell, last = cell + (left < sim->chunk_cells ? left : sim->chunk_cells);
+    const uint32_t last = end_of_chunk(sim, cell);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         c[k] = q % sim->grid.ncell[k];
         q /= sim->grid.ncell[k];

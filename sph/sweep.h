@@ -93,6 +93,9 @@ enum { SPH_APART_KIN = 1, SPH_APART_MIRRORED = 2 }; /* of one material; seen thr
 
 #define sph_sweep_chunk SPH_NAME(sweep_chunk_)
 void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_thread *t);
+/* whether there is nobody in a chunk of cells; then its work is counted */
+#define sph_is_empty_chunk SPH_NAME(is_empty_chunk_)
+bool sph_is_empty_chunk(const sph_sim *sim, uint32_t chunk, sph_thread *t);
 #define sph_sweep_chunks SPH_NAME(sweep_chunks_)
 uint32_t sph_sweep_chunks(const sph_sim *sim);
 #define sph_local_chunks SPH_NAME(local_chunks_)
