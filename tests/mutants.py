@@ -418,7 +418,7 @@ class Worker(threading.Thread):
         """programs, the quickest first, of each test its quickest build first; as many as patience allows"""
         seconds, seen, order, spent = self.known.seconds, set(), [], 0
         for k in sorted((k for k in who if ":" not in k), key=lambda k: seconds[k]):
-            order.append((k[:-3] in seen, seconds[k], k))
+            order.append((k[:-3] in seen and seconds[k] > 0.1, seconds[k], k))
             seen.add(k[:-3])
         names = []
         for _, s, k in sorted(order):
