@@ -394,6 +394,7 @@ class Worker(threading.Thread):
     def undefined(self, m, path, whole):
         """does undefined behaviour trap (make asan has the same checks), where it does not without the change?"""
         seconds, who, self.extra = self.known.seconds, self.known.who(m[0], m[1]), UNDEFINED
+        self.fresh, self.linked = {}, None
         tries = [("build/mutants_golden_" + b, ["tests/golden.csv"] +
                   [k.split(":")[1] for k in who if k.startswith("build/mutants_golden_%s:" % b)]) for b in GOLDEN[:2]]
         tries = [t for t in tries if len(t[1]) > 1] + [(k, []) for k in self.in_order(who) if seconds[k] < 0.5]
@@ -417,7 +418,7 @@ class Worker(threading.Thread):
         """programs, the quickest first, of each test its quickest build first; as many as patience allows"""
         seconds, seen, order, spent = self.known.seconds, set(), [], 0
         for k in sorted((k for k in who if ":" not in k), key=lambda k: seconds[k]):
-            order.append((k[:-3] in seen, seconds[k], k))
+            order.append((k[:-3] in seen and seconds[k] > 0.1, seconds[k], k))
             seen.add(k[:-3])
         names = []
         for _, s, k in sorted(order):

@@ -277,7 +277,7 @@ static void coincidence_is_what_all_pairs_say(void **state)
     (void)state;
     for (uint64_t seed = 1; seed <= 40; seed++) {
         sph_config c;
-        sph_sim *sim = cloud(&c, seed, (uint32_t)seed % (1u << SPH_DIM), SPH_DIM == 1 ? 20 : SPH_DIM == 2 ? 40 : 120);
+        sph_sim *sim = cloud(&c, seed, (uint32_t)seed % (1u << SPH_DIM), SPH_DIM == 1 ? 40 : 150);
         const sph_finding want = by_all_pairs(sim, &c);
         inspect(sim);
         const sph_finding *f = &found[SPH_FINDING_COINCIDENT];
