@@ -150,7 +150,7 @@ static void take_given(const sph_sim *sim, sph_span s)
 void sph_carry_fields(sph_sim *sim, sph_span s)
 {
     take_drift(sim, s);
-    if (sim->stage->keeps)
+    if (sph_keeps_fields(sim))
         take_given(sim, s);
     if (!sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS))
         return;
@@ -163,7 +163,7 @@ void sph_carry_fields(sph_sim *sim, sph_span s)
     }
     take_fields(sim, s);
     for (const sph_field *f = sph_fields; f < sph_fields + SPH_FIELD_COUNT; f++)
-        for (uint32_t k = 0; k < f->comps && f->way == SPH_RATE && !sim->stage->keeps &&
+        for (uint32_t k = 0; k < f->comps && f->way == SPH_RATE && !sph_keeps_fields(sim) &&
                              sph_array(&sim->buf[sim->dst], f->at); k++)
             memset((unsigned char *)sph_array(&sim->buf[sim->dst], f->at + k) + (size_t)s.first * f->bytes, 0,
                    (size_t)(s.last - s.first) * f->bytes);

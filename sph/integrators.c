@@ -129,13 +129,13 @@ static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
     sph_carry_fields(sim, s);
-    if (!sim->stage->keeps)
+    if (!sph_keeps_fields(sim))
         grow(sim, s, sim->stage->rate);
     t->work += s.last - s.first;
 }
 static bool carries(const sph_sim *sim)
 {
-    return sim->stage->keeps || sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) ||
+    return sph_keeps_fields(sim) || sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) ||
            (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
 }
 static const sph_pass pass_carry = {"carry", sph_local_chunks, carry_chunk, NULL, carries};

@@ -66,7 +66,7 @@ typedef struct sph_group {
 #define SPH_NO_LAG 1e300
 /* where a group is now */
 typedef struct sph_group_state {
-    double remove_at;           /* s; infinite: never */
+    double remove_at;           /* s; 1e300: never */
     double vel[SPH_DIM];        /* m/s */
     sph_pos moved[SPH_DIM];     /* displacement, quanta; along a periodic axis within half a domain, round it */
     double lag[2][SPH_DIM];     /* m/s, its velocity filtered once and twice (groups.c); SPH_NO_LAG: not yet known */
@@ -150,7 +150,6 @@ struct sph_sim {
     uint32_t src_count;              /* particles in src */
     bool middle;                     /* what is summed now is rates, in the middle of the step */
     double moment;                   /* s, time of the forces and walls of the stage */
-    double wall_acc[SPH_MAX_GROUPS][SPH_DIM]; /* m/s^2, of groups that move, at that time (groups.c) */
     const sph_stage *stage;          /* the one under way */
     const struct sph_integrator *integrator; /* whose list of passes runs */
     bool src_table;                  /* cell[] belongs to src, so its slabs are known */
@@ -166,8 +165,6 @@ struct sph_sim {
     uint64_t setup_hash;
     bool has_adami, has_force_wall;
     bool mixed, own_sound; /* bodies are of several materials, or one that is not the configuration's; so is their c0 */
-    /* state */
-    sph_scalars now, next; /* next: being made by the step under way */
     bool table_valid;      /* cell[] belongs to buffer cur */
     /* step machine */
     const sph_pass *program[SPH_MAX_PROGRAM];
@@ -185,6 +182,9 @@ struct sph_sim {
     uint64_t mark_work, mark_slice, last_work, last_pairs;
     uint32_t last_passes, last_limit;
     double last_dt;
+    /* state; the largest comes last: what is near the beginning takes shorter code */
+    sph_scalars next, now; /* next: being made by the step under way */
+    double wall_acc[SPH_MAX_GROUPS][SPH_DIM]; /* m/s^2, of groups that move, at `moment` (groups.c) */
 };
 
 /* A pass: some chunks that may run in any order and at once, then an end that runs alone. */
@@ -460,6 +460,11 @@ SPH_INLINE bool sph_in_middle(const sph_sim *sim) { return SPH_HAS_RATES_FIRST &
 SPH_INLINE bool sph_sums_rates(const sph_sim *sim)
 {
     return !SPH_HAS_RATES_FIRST || sim->middle || !sim->stage->middle;
+}
+/* whether this stage sums nothing but density */
+SPH_INLINE bool sph_keeps_fields(const sph_sim *sim)
+{
+    return SPH_WITH_SUMMATION && SPH_HAS_RUNGE_KUTTA && sim->stage->keeps;
 }
 SPH_INLINE bool sph_sums_forces(const sph_sim *sim) { return !sph_in_middle(sim); }
 

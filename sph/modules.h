@@ -96,6 +96,7 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_WITH_SMAGORINSKY SPH_WITH_SHEAR
 #define SPH_WITH_SMAGORINSKY_WICK SPH_WITH_SHEAR
 #define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
+#define SPH_HAS_BOUNDED (SPH_HAS_DIFFUSION || SPH_WITH_SHIFTING) /* volumes with a bound (tiles.c) */
 /* sums that depend on whom they meet: another material, or an image of what is heavier below */
 #define SPH_HAS_APART (SPH_WITH_SEVERAL_FLUIDS || (SPH_WITH_HYDROSTATIC && SPH_HAS_MIRRORS))
 #define SPH_HAS_FILTERS (SPH_WITH_SHEPARD || SPH_WITH_SUMMATION)

@@ -137,13 +137,14 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
             sph_carry_off(sim, b, i, t);
         return;
     }
-    t->reflected += own && !all && turned && sim->stage->reflects;
-    if (own && !all && turned)
+    if (SPH_HAS_MIRRORS && own && !all && turned) {
+        t->reflected += sim->stage->reflects;
         sim->turned[i] = (uint8_t)turned;
+    }
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         o->pos[k][j] = q[k];
         if (all)
-            o->vel[k][j] = turned & SPH_TURNS_VECTORS << k ? -v[k] : v[k];
+            o->vel[k][j] = SPH_HAS_MIRRORS && turned & SPH_TURNS_VECTORS << k ? -v[k] : v[k];
     }
 }
 

@@ -55,13 +55,13 @@ void sph_setup_finish_set(sph_sim *sim, sph_set *s)
 
 uint32_t sph_setup_add_group(sph_sim *sim, sph_motion motion, void *ctx)
 {
-    const uint32_t group = sim->groups++;
-    sim->group[group] = (sph_group){motion, ctx};
-    memset(&sim->now.group[group], 0, sizeof sim->now.group[group]);
-    sim->now.group[group].remove_at = 1e300;
-    for (int k = 0; k < 2 * SPH_DIM; k++)
-        sim->now.group[group].lag[k / SPH_DIM][k % SPH_DIM] = SPH_NO_LAG;
-    return group;
+    sph_group_state *const s = &sim->now.group[sim->groups];
+    sim->group[sim->groups] = (sph_group){motion, ctx};
+    memset(s, 0, sizeof *s);
+    s->remove_at = 1e300;
+    for (int k = 0; k < SPH_DIM; k++)
+        s->lag[0][k] = s->lag[1][k] = SPH_NO_LAG;
+    return sim->groups++;
 }
 
 double sph_setup_cell_volume(const sph_sim *sim)

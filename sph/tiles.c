@@ -75,7 +75,7 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real leas
             v_store(t->rho + at + j, rho);
             v_store(t->press + at + j, c.ratio && c.press ? p / (rho * rho) : p);
             if (c.inv_rho)
-                v_store(t->inv_rho + at + j, 1 / v_max(rho, lowest));
+                v_store(t->inv_rho + at + j, 1 / (SPH_HAS_BOUNDED ? v_max(rho, lowest) : rho));
         }
 }
 
@@ -138,7 +138,7 @@ SPH_FAST_LOADS(SPH_FAST_FN)
 void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool homes)
 {
     const bool inv_rho = asked != 0;
-    const sph_real least = asked == SPH_BOUNDED && !homes ? LEAST_DENSITY : -1; /* -1: all of them */
+    const sph_real least = SPH_HAS_BOUNDED && asked == SPH_BOUNDED && !homes ? LEAST_DENSITY : -1; /* -1: all of them */
     const sph_config *c = &r->sim->cfg;
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, press = needs_press(r->sim);
     const bool floor = press && c->pressure_floor && !sph_is_solid(r->set);
