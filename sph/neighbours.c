@@ -172,18 +172,27 @@ uint32_t sph_find_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *
 
 /* ---- neighbours side by side ---- */
 
+/* eight neighbours' places in all rows of a set */
+SPH_INLINE void take_rows(const sph_real *from, const uint16_t *at, const uint16_t *list, uint32_t rows, sph_real *to)
+{
+    uint32_t place[SPH_LANES];
+    SPH_UNROLL
+    for (uint32_t l = 0; l < SPH_LANES; l++)
+        place[l] = at[list[l]];
+    for (uint32_t r = 0; r < rows; r++, from += SPH_TILE_ROOM, to += SPH_NEAR_ROOM)
+        SPH_UNROLL
+        for (uint32_t l = 0; l < SPH_LANES; l++)
+            to[l] = from[place[l]];
+}
 /* the column sets of a class */
 static __attribute__((noinline)) void take_sets(const sph_sim *sim, sph_thread *t, bool ghosts, const uint16_t *list,
                                                 uint32_t n)
 {
-    const uint16_t *const at = t->sifted.at;
     for (uint32_t c = 0; c < SPH_COLUMN_COUNT; c++) {
         const bool asked = t->sifted.sweep->columns >> c & 1 && sim->columns[c].ghosts == ghosts;
-        const sph_real *from = sph_columns_of(sim, t, c);
-        sph_real *to = sph_near_columns_of(sim, t, c);
-        for (uint32_t r = 0; asked && r < sim->columns[c].rows; r++, from += SPH_TILE_ROOM, to += SPH_NEAR_ROOM)
-            for (uint32_t i = 0; i < n; i++)
-                to[i] = from[at[list[i]]];
+        for (uint32_t i = 0; asked && i < n; i += SPH_LANES)
+            take_rows(sph_columns_of(sim, t, c), t->sifted.at, list + i, sim->columns[c].rows,
+                      sph_near_columns_of(sim, t, c) + i);
     }
 }
 

@@ -9,7 +9,7 @@ enum { A = SCENE_COMMON, N2, N, LENGTH, HEIGHT, GRAVITY, SOUND, START, AWAY, PAR
 
 static const scene_param param[PARAMS] = {
     SCENE_PARAMS_OF(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI,
-                    1, 0, 1, SPH_KICK_DRIFT_KICK, 0.9, 1),
+                    1, 0, 1, SPH_KICK_DRIFT_KICK, 1.2, 1),
     {"a", "m", "width of the column", 0.0572, 1e-4, 1e4, SCENE_NUMBER},
     {"n2", "-", "height of the column in widths", 1, 0.1, 10, SCENE_NUMBER},
     {"n", "-", "particles across the column", 30, 4, 4000, SCENE_WHOLE},

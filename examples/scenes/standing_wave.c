@@ -12,7 +12,7 @@ enum { SIDES_PERIODIC, SIDES_SYMMETRY };
 
 static const scene_param param[PARAMS] = {
     SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0, SPH_HYDROSTATIC, SCENE_ADAMI,
-                    1, 0, 0, SPH_KICK_DRIFT_KICK, 0.9, 0),
+                    1, 0, 0, SPH_KICK_DRIFT_KICK, 1.2, 0),
     {"depth", "m", "depth of the water", 1, 1e-4, 1e4, SCENE_NUMBER},
     {"wavelength", "depth", "wavelength (rounded to whole spacings)", 2, 0.2, 100, SCENE_NUMBER},
     {"amplitude", "depth", "amplitude of the surface", 0.02, 0, 0.5, SCENE_NUMBER},
