@@ -94,8 +94,9 @@ def cases(quick):
     # Adami's kind corrected water grows noisy behind some 35 sqrt(D/g)
     for depth, k, b, speed, height in ((0.15, 2.5, 0.07, 1.333, 0.02717), (0.20, 2.5, 0.07, 1.477, 0.02323),
                                        (0.20, 1.5, 0.25, 1.831, 0.1361))[:1 if quick else 3]:
-        run = Wave(start="mound", depth=depth, length=16 / depth if k < 2 else 12 / depth, mound_b=b / depth, mound_k=k * depth, every=0.05,
-                   end=7, sides="symmetry", **dict(CHEAPEST, alpha=0.001))
+        length = 16 / depth if k < 2 else 12 / depth
+        run = Wave(start="mound", depth=depth, length=length, mound_b=b / depth, mound_k=k * depth, every=0.05, end=7,
+                   sides="symmetry", **dict(CHEAPEST, alpha=0.001))
         name = f"W4 mound H={depth} k={k}"
         add(f"{name}: speed over 3 to 7 s", "% of potential flow", 3.0, [run],
             lambda r, v=speed: mound_speed(r, v))
