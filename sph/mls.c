@@ -4,9 +4,9 @@
 
      d_i = (A^-1 b)_0,  A = sum V W p (x) p,  b = sum V W d_j p
 
-   which is exact for densities that are linear in place, also at a surface; d instead of rho, so that rounding is of the
-   difference (constants are reproduced, so it is the same). With A = (a, m; m, M): d_i = (b_0 - c.b')/(a - c.m), c =
-   M^-1 m. Where the neighbours do not span space the mean of order 0 is taken, b_0/a: that of the Shepard filter.
+   which is exact for densities that are linear in place, also at a surface; d instead of rho, so that rounding is of
+   the difference (constants are reproduced, so it is the same). With A = (a, m; m, M): d_i = (b_0 - c.b')/(a - c.m),
+   c = M^-1 m. Where the neighbours do not span space the mean of order 0 is taken, b_0/a: that of the Shepard filter.
    Array: that of the Shepard filter. Cost: a sweep. */
 #include "pair.h"
 #include "arithmetic.h"

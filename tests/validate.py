@@ -9,8 +9,9 @@ misses it.
 """
 import sys
 
-import validate_solids, validate_water
+import validate_solids, validate_water, validate_waves
 from validation import main
 
 if __name__ == "__main__":
-    sys.exit(main(lambda quick: validate_water.cases(quick) + validate_solids.cases(quick), "validate", __doc__))
+    parts = (validate_water, validate_waves, validate_solids)
+    sys.exit(main(lambda quick: [row for part in parts for row in part.cases(quick)], "validate", __doc__))
