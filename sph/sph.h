@@ -65,7 +65,7 @@ typedef float sph_real;
     X(NOT_FINITE, "a particle's rate or state is not finite")                                          \
     X(DENSITY_LOST, "a particle's density left the range that its equation of state allows")           \
     X(OUT_OF_DOMAIN, "a particle left the domain through an open face")                                \
-    X(MOVED_TOO_FAR, "a particle moved more than a cell in a step, or half the domain since its start")  \
+    X(MOVED_TOO_FAR, "a particle moved more than a cell in one step")                                  \
     X(WALL_CROSSED, "a particle crossed a wall")                                                       \
     X(BOND_TOO_LONG, "two neighbours of the total-Lagrangian form were drawn further apart than max_stretch") \
     X(STEP_COLLAPSED, "the time step fell below dt_min")                                               \
