@@ -115,7 +115,7 @@ sph_status sph_reconfigure(sph_sim *sim, const sph_config *cfg)
     if (!sim)
         return SPH_BAD_ARGUMENT;
     if (sim->begun)
-        return sph_error(sim, SPH_BAD_STATE, "reconfigure", "between steps", 0, SPH_NO_PARTICLE);
+        return sph_error(sim, SPH_BAD_STATE, "sph_reconfigure", "between steps", 0, SPH_NO_PARTICLE);
     if (sph_config_check(cfg, &r) != SPH_OK)
         return sph_error(sim, SPH_BAD_CONFIG, r.what, r.allowed, r.value, SPH_NO_PARTICLE);
     /* the digest leaves out what may change */

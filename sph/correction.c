@@ -110,7 +110,7 @@ static void check_bonds(sph_sim *sim, sph_thread *t, uint32_t h, uint32_t i)
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         const sph_pos s = b->shift[k][i], half = sim->grid.extent[k] / 2;
         if (s > half || s < -half)
-            sph_fail_note(t, SPH_MOVED_TOO_FAR, id, (double)s * sim->grid.quantum);
+            sph_fail_note(t, SPH_MOVED_TOO_FAR, id, (double)s / (double)sim->grid.cell_size[k]);
     }
     const sph_real far = v_fold_max(t->sum[SUM_FAR][h]), most = (sph_real)(sim->grid.support * sim->cfg.max_stretch);
     if (!(far < most * most))

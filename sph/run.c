@@ -87,7 +87,7 @@ static void run_chunks(sph_sim *sim, uint32_t n)
 /* what a pass may fail of, by status from SPH_NOT_FINITE on: the quantity; and of SPH_OUT_OF_DOMAIN by face */
 static const char *const quantities[] = {"a rate or a squared magnitude", "relative density excess",
                                          "x from the domain's low corner (m)",
-                                         "cells moved in one step", "depth inside the wall (m)",
+                                         "cells moved", "depth inside the wall (m)",
                                          SPH_HAS_TOTAL ? "length of a bond (m)" : ""};
 static const char *const faces[] = {"x beyond the low face (m)", "x beyond the high face (m)",
 #if SPH_DIM > 1

@@ -29,13 +29,10 @@ static bool flows(const double *p, uint32_t which) { return p[FLOW] == which || 
 
 static double end(const double *p) { return p[DURATION] * p[HEIGHT] * p[HEIGHT] / viscosity(p); }
 
-/* particles along the channel: a periodic axis is longer than three supports, and a plate slides less than two lengths
-   of it */
+/* particles along the channel: a periodic axis is longer than three supports */
 static double columns(const double *p)
 {
-    const double least = 3 * sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H];
-    const double slide = flows(p, COUETTE) ? 0.55 * p[SPEED] * end(p) / spacing(p) : 0;
-    return (double)(uint32_t)(slide > least ? slide : least) + 2;
+    return (double)(uint32_t)(3 * sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H]) + 2;
 }
 
 /* exact velocity in units of the speed at height y (0 to 1) and time t (1 height^2/nu); until the series has begun to
