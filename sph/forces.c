@@ -241,7 +241,7 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
 {
     sph_choice own = *c;
     own.solid = true;
-    own.gradient = 0;
+    own.gradient = own.shear = own.shifting = 0; /* of fluids alone */
     own.loses = SPH_SMALL && own.loses;
     own.total = SPH_HAS_TOTAL && own.total;
     own.hat = SPH_HAS_HAT && own.hat;
