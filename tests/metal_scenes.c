@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* metal_scenes.c: what the scenes of this build cost that have at most MOST particles, with their defaults (3-D: a
-   third of the particles along an edge):
+   third of the particles along an edge, or the fewest that are allowed):
    passes, candidate pairs and work of a step, state hash; on bare metal under `-icount shift=0` also instructions, and
    the depth of the painted stack below sph_init and sph_step. One line a scene of words and values; tests/size.sh makes
    rows of them. */
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "examples/scenes/scene.h"
 #include "port/cortexm.h"
@@ -56,10 +57,12 @@ static sph_status cost(const scene *s)
     uint64_t ns = 0;
     if (s->params > MOST_PARAMS)
         return SPH_BAD_ARGUMENT;
+    if (strcmp(s->name, "solitary") == 0) /* its wave is found in double, on a host's stack */
+        return SPH_OK;
     for (uint32_t k = 0; k < s->params; k++) {
         p[k] = s->param[k].value;
         if (SPH_DIM == 3 && s->param[k].name[0] == 'n' && s->param[k].name[1] == 0)
-            p[k] = (double)(uint32_t)(p[k] / 3);
+            p[k] = p[k] / 3 < s->param[k].min ? s->param[k].min : (double)(uint32_t)(p[k] / 3);
     }
     deep_init = deep_step = 0;
     sph_status st = make(s, p, &sim);

@@ -16,7 +16,7 @@ enum { PRESSURES = 8, LEVELS = 4 };
 static const scene_param param[PARAMS] = {
     SCENE_PARAMS_SHIFTED(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 0,
                          SPH_KICK_DRIFT_KICK, 0.5, 1, 0.2, 0.5),
-    {"n", "-", "particles in the water's depth", 11, 4, 500, SCENE_WHOLE},
+    {"n", "-", "particles in the water's depth", 11, 5, 500, SCENE_WHOLE},
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
     {"sound", "sqrt(g H)", "sound speed, H the water's depth", 10, 2, 1000, SCENE_NUMBER},
     {"duration", "s", "length of the run", 2, 0, 1e9, SCENE_NUMBER},

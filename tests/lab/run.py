@@ -11,7 +11,8 @@ no seconds: those go into seconds.csv, as multiples of the calibration loop that
 are counted by callgrind in the default build over a few steps at the study's coarsest size, and taken times the
 particle-steps of the run.
 --smoke: a few coarse rows of each study, compared with the committed tables; nothing is written there.
---most: only the rows of --smoke and those whose run took less by seconds.csv; tables then hold no others and say so.
+--most: only the rows of --smoke and those whose run took less by seconds.csv, or is there; tables then hold no others
+and say so.
 """
 import argparse, csv, glob, hashlib, io, os, re, shutil, subprocess, sys, time
 from concurrent.futures import ThreadPoolExecutor
@@ -184,6 +185,11 @@ def seconds_of_rows():
     return {(r[0], r[1], r[2]): float(r[3]) for r in rows}
 
 
+def made_already(r):
+    """Seconds of a row that no table knows: none where its run is there, else more than anybody has."""
+    return 0 if os.path.exists(r.prefix() + ".cost") else float("inf")
+
+
 def table(study, rows, counts):
     out = io.StringIO()
     out.write("# SPDX-License-Identifier: MIT. Copyright the sph authors.\n")
@@ -279,8 +285,8 @@ def main():
         for s in studies:
             few = {r.name for r in smoke_rows(s, rows[s.name])}
             every = len(rows[s.name])
-            rows[s.name] = [r for r in rows[s.name]
-                            if r.name in few or known_seconds.get((r.scene, r.precision, r.given), 0) < args.most]
+            rows[s.name] = [r for r in rows[s.name] if r.name in few or
+                            known_seconds.get((r.scene, r.precision, r.given), made_already(r)) < args.most]
             LEFT_OUT[s.name] = f"{every - len(rows[s.name])} dearer rows, of --most {args.most:g}; make lab makes all"
     if args.list:
         for s in studies:
