@@ -350,7 +350,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_SOLID_SCRATCH_BYTES /* with solids besides */                                                   \
     ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SHEAR_SCRATCH_BYTES /* with a viscous stress besides */                                          \
-    ((SPH_DIM * SPH_DIM + 1u) * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 472u) * SPH_REAL_)
+    ((SPH_DIM * SPH_DIM + 1u) * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_)
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \

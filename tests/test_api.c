@@ -724,7 +724,7 @@ static void first_forces_in_slices_leave_a_step_begun(void **state)
         sph_sim *sim = pool(&c);
         uint32_t slices = 0;
         sph_status st;
-        while ((st = sph_step_slice(sim, 40)) == SPH_NOT_DONE) {
+        while ((st = sph_step_slice(sim, 10)) == SPH_NOT_DONE) {
             slices++;
             assert_int_equal(sph_reconfigure(sim, &c), SPH_BAD_STATE);
             assert_int_equal(sph_remove_wall_at(sim, 0, 1), SPH_BAD_STATE);

@@ -379,9 +379,10 @@ static void what_the_form_does_not_cover_is_told(void **state)
         assert_int_equal(st, far ? SPH_MOVED_TOO_FAR : SPH_BOND_TOO_LONG);
         assert_true(steps > 10 && sph_hash(sim) == before && sph_last(sim)->particle < sph_count(sim));
         const double limit = far ? 1 : 1.5 * 2 * 1.2 * DX;
+        const double unit = far ? sim->grid.length[0] / sim->grid.ncell[0] : 1; /* cells, or m */
         print_message("%s: told after %u steps, at %.4g m\n", far ? "moved too far" : "bond too long", steps,
-                      sph_last(sim)->value);
-        close_to(fabs(sph_last(sim)->value), limit, 1.1 * 2 * speed * c.dt);
+                      sph_last(sim)->value * unit);
+        close_to(fabs(sph_last(sim)->value) * unit, limit, 1.1 * 2 * speed * c.dt);
         assert_string_equal(sph_last(sim)->pass, "correction");
         /* turned round, it goes on */
         if (!far) {

@@ -7,8 +7,9 @@
 #include <string.h>
 
 #include "host.h"
+#include "sph/sph.h"
 
-#define VERSION 4u /* 1 was before solids, 2 before sponges, 3 before `rise`; what is read here is the same in all */
+#define VERSION SPH_VERSION /* what is read here is the same in all: see sph.h */
 #define PREAMBLE 32u
 #define HEADER 64u
 #define FIELD 32u
