@@ -158,6 +158,8 @@ def places_of_gauges_that_are_no_places_are_refused():
                   ("probe=" + "/".join("0.1,0.1" for _ in range(13)),), ("gauge=0.1", "gauge=0.2")):
         refused(dam("steps=1", "out=a", *words), words[0].split("=")[0], code=2)
     refused(sph("run", "hydrostatic", "gauge=1"), "one dimension", code=2)
+    for words, said in (("gauge=99", "x = 99 is out of the domain"), ("probe=0.01,7", "y = 7 is out of the domain")):
+        refused(dam("steps=1", "out=b", "dump=none", words), said, code=1)
     assert not files()
 
 

@@ -101,6 +101,12 @@ static double bed_below(const build_sim *s, const double *x)
     return bed;
 }
 
+static void domain(const build_sim *s, uint32_t axis, double *lo, double *hi)
+{
+    *lo = s->cfg.lo[axis];
+    *hi = s->cfg.hi[axis];
+}
+
 static void gauge(const build_sim *s, const double *x, double *out)
 {
     const uint32_t up = SPH_DIM - 1;
@@ -176,6 +182,6 @@ static sph_status inspect(build_sim *s, void (*fn)(void *ctx, const sph_finding 
 
 #define build_table SPH_NAME(build_table)
 extern const build build_table;
-const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,  time_of, history, gauge,
+const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,  time_of, history, domain, gauge,
                            probe,   totals,     info,      usage,      count,     hash,  last, arena,   dump,
                            restore, inspect};

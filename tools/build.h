@@ -43,6 +43,7 @@ typedef struct build {
     double (*end)(const build_sim *s);
     double (*time)(const build_sim *s);
     void (*history)(const build_sim *s, double *row);
+    void (*domain)(const build_sim *s, uint32_t axis, double *lo, double *hi); /* m */
     /* Of the column above x (m, an axis less than the scene has): the connected surface from the lowest water up, the
        highest water, the integral of cover (m). */
     void (*gauge)(const build_sim *s, const double *x, double *out);

@@ -296,7 +296,7 @@ static bool open_sim(run *r)
     if (!r->sim)
         host_no("%s: %s = %g, allowed: %s", sph_status_text(why.status), why.what, why.value,
                 *why.allowed ? why.allowed : "-");
-    return r->sim != NULL;
+    return r->sim != NULL && gauges_fit(&r->extra, r->b, r->sim);
 }
 
 static const char *const role_names[SPH_ROLES] = {"fluid", "wall", "boundary wall", "solid"};

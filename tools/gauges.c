@@ -64,6 +64,28 @@ bool gauges_take(gauges *g, const build *b, const build_scene *scene, const char
     }
 }
 
+static bool is_inside(const char *option, const double *x, uint32_t n, const build *b, const build_sim *sim)
+{
+    for (uint32_t k = 0; k < n; k++) {
+        double lo, hi;
+        b->domain(sim, k, &lo, &hi);
+        if (!(x[k] >= lo && x[k] <= hi))
+            return host_no("%s: %c = %g is out of the domain, %g to %g", option, "xyz"[k], x[k], lo, hi) == HOST_FINE;
+    }
+    return true;
+}
+
+bool gauges_fit(const gauges *g, const build *b, const build_sim *sim)
+{
+    for (uint32_t i = 0; i < g->gauge_count; i++)
+        if (!is_inside("gauge", g->gauge[i], b->dimension - 1, b, sim))
+            return false;
+    for (uint32_t i = 0; i < g->probe_count; i++)
+        if (!is_inside("probe", g->probe[i], b->dimension, b, sim))
+            return false;
+    return true;
+}
+
 void gauges_row(const gauges *g, const build *b, const build_sim *sim, double *row)
 {
     for (uint32_t i = 0; i < g->gauge_count; i++, row += GAUGE_COLUMNS)

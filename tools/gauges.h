@@ -16,6 +16,8 @@ typedef struct gauges {
 
 /* One of the two options, its text; false after a message. Lengths are the scene's. */
 bool gauges_take(gauges *g, const build *b, const build_scene *scene, const char *option, const char *text);
+/* Whether all places are in the domain; false after a message. */
+bool gauges_fit(const gauges *g, const build *b, const build_sim *sim);
 /* The values of all columns, in the order of their names. */
 void gauges_row(const gauges *g, const build *b, const build_sim *sim, double *row);
 

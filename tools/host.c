@@ -104,7 +104,7 @@ bool host_numbers(const char *name, const char *text, uint32_t n, double *out)
     for (uint32_t i = 0; i < n; i++) {
         const char *end = strchr(at, ',');
         if ((end == NULL) != (i + 1 == n) || !parse_double(at, end ? end : at + strlen(at), &out[i])) {
-            host_usage("%s=%s: must be %u numbers separated by commas", name, text, n);
+            host_usage("%s=%s: must be %u number%s", name, text, n, n > 1 ? "s separated by commas" : "");
             return false;
         }
         at = end ? end + 1 : at;
