@@ -182,6 +182,6 @@ static sph_status inspect(build_sim *s, void (*fn)(void *ctx, const sph_finding 
 
 #define build_table SPH_NAME(build_table)
 extern const build build_table;
-const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,  time_of, history, domain, gauge,
-                           probe,   totals,     info,      usage,      count,     hash,  last, arena,   dump,
-                           restore, inspect};
+const build build_table = {SPH_DIM, SPH_DOUBLE, get_scene, open_scene, close_sim, step,  end,   time_of, history,
+                           domain,  gauge,      probe,     totals,     info,      usage, count, hash,    last,
+                           arena,   dump,       restore,   inspect};
