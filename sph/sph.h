@@ -633,7 +633,7 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
      a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2
                 for all integrators but the predictor-corrector), as many again with Adami walls, with SPH_CORRECTED
                 or SPH_TOTAL, with xsph_strain, with gradients of fluids, and with a viscous stress; 1 each for the
-                density filter and summation (2 and 3 with Runge-Kutta).
+                density filter and summation (with Runge-Kutta 2 and 4: with the latter it sorts once more).
    Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
 sph_status sph_step_slice(sph_sim *sim, uint64_t budget);

@@ -103,7 +103,7 @@ static UNUSED uint64_t most_work(const sph_sim *sim, uint64_t n)
     const sph_config *c = &sim->cfg;
     const bool rk = c->integrator >= SPH_RUNGE_KUTTA;
     const uint64_t forces = c->integrator == SPH_PREDICTOR_CORRECTOR ? 1 : 2;
-    const uint64_t sums = c->density == SPH_SUMMATION || sph_filters(c) ? (rk ? 2u : 1u) : 0;
+    const uint64_t sums = c->density == SPH_SUMMATION ? (rk ? 4u : 1u) : sph_filters(c) ? (rk ? 2u : 1u) : 0;
     const uint64_t each = 1u + sim->has_adami + sph_corrects(c) + sph_smooths_strain(c) + sph_shears(c);
     return SPH_STEP_WORK(forces * each + sums, n, sim->mark_cell, sim->grid.cells);
 }
