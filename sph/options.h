@@ -82,9 +82,9 @@
       "kinematic viscosity; 0: what the scene's Reynolds number asks for", "nu", "m^2/s", 0, 1e6, USUAL)              \
     P(A, shear, CHOICE, SPH_NO_SHEAR, 0, SPH_SHEARS, SPH_SHEARS_IN, "one of SPH_NO_SHEAR .. SPH_SMAGORINSKY_WICK",    \
       FIXED, "-", "viscous stress: none nested smagorinsky smagorinsky_wick", "shear", "-", 0, SPH_SHEARS - 1, USUAL)  \
-    P(A, smagorinsky, REAL, 0.12, 0, 10, SPH_WITH_SHEAR, "0 .. 10", FIXED, "-",                                        \
+    P(A, smagorinsky, REAL, 0.12, 0, 10, true, "0 .. 10", FIXED, "-",                                                  \
       "C_s of the eddy viscosity", "cs", "-", 0, 10, USUAL)                                                           \
-    P(A, subgrid, REAL, 0.0066, 0, 10, SPH_WITH_SHEAR, "0 .. 10", FIXED, "-",                                          \
+    P(A, subgrid, REAL, 0.0066, 0, 10, true, "0 .. 10", FIXED, "-",                                                    \
       "C_I of the eddies' pressure", "ci", "-", 0, 10, USUAL)                                                         \
     P(A, diffusion, CHOICE, SPH_NO_DIFFUSION, 0, SPH_DIFFUSIONS, SPH_DIFFUSIONS_IN,                                   \
       "one of SPH_NO_DIFFUSION .. SPH_HYDROSTATIC", FIXED, "-", "density diffusion: none molteni hydrostatic",        \
