@@ -30,7 +30,8 @@ metal_machine() {
 metal_build() ( # a subshell: its variables are its own
     out=$1 level=$2 b=$3 more=$4
     shift 4
-    dim=${b%?} double=0 dir=$BUILD/metal/$metal$level
+    # objects of other flags are others
+    dim=${b%?} double=0 dir=$BUILD/metal/$metal$level$(printf %s "$METAL_CFLAGS" | tr -cs A-Za-z0-9 _)
     [ "${b#?}" = d ] && double=1
     objects=$dir/libsph$b.a
     for f in examples/scenes/*.c; do objects="$dir/obj/$b/${f%.c}.o $objects"; done

@@ -79,14 +79,14 @@ static bool loses_energy(const sph_config *c)
 
 /* Sums over the layers of a lattice at distances m dx from a home, m = 0 .. n - 1: of V K^2 g, and of V K_t^2 g, t an
    axis along the layer */
-typedef struct layers {
+typedef struct lattice_layers {
     double all[32], along[32];
     uint32_t n;
-} layers;
-static layers sum_layers(const sph_config *c)
+} lattice_layers;
+static lattice_layers sum_layers(const sph_config *c)
 {
     const double dx = c->spacing, reach = sph_kernel_support(c->kernel) * c->smoothing_length / dx;
-    layers l = {{0}, {0}, (uint32_t)reach + 1};
+    lattice_layers l = {{0}, {0}, (uint32_t)reach + 1};
     const int32_t most = (int32_t)l.n, third = SPH_DIM == 3 ? most : 0;
     for (int32_t m = 0; m < most; m++)
         for (int32_t a = -most; a <= most; a++)
@@ -106,7 +106,7 @@ static layers sum_layers(const sph_config *c)
    neighbours and diagonals only, beta = (1/24 + d)/(1 - d) (Q0/k)^2, k what the face cuts off, d = delta_0 */
 static void make_weights(const sph_config *c, double slope, sph_factors *f)
 {
-    const layers l = sum_layers(c);
+    const lattice_layers l = sum_layers(c);
     double full = -l.all[0], deeper = 1.0 / 24, moment = 0;
     for (uint32_t m = 0; m < l.n; m++)
         full += 2 * l.all[m];

@@ -14,8 +14,8 @@
 SPH_OBJECT(mls)
 
 #if SPH_WITH_MLS
-enum { SUM_A, SUM_B, SUM_M, SUM_F = SUM_M + SPH_DIM, SUM_T = SUM_F + SPH_DIM, SUMS = SUM_T + SPH_NT };
-_Static_assert(SUMS <= SPH_SUMS, "SPH_SUMS is too small");
+enum { SUM_A, SUM_B, SUM_MOMENT, SUM_F = SUM_MOMENT + SPH_DIM, SUM_T = SUM_F + SPH_DIM, MLS_SUMS = SUM_T + SPH_NT };
+_Static_assert(MLS_SUMS <= SPH_SUMS, "SPH_SUMS is too small");
 
 SPH_INLINE void mls_pair(const void *what, uint32_t j, vreal *s)
 {
@@ -30,7 +30,7 @@ SPH_INLINE void mls_pair(const void *what, uint32_t j, vreal *s)
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
         const vreal x = dx[k] * g->inv_h;
-        s[SUM_M + k] = s[SUM_M + k] + w * x;
+        s[SUM_MOMENT + k] = s[SUM_MOMENT + k] + w * x;
         s[SUM_F + k] = s[SUM_F + k] + wd * x;
         SPH_UNROLL
         for (int l = k; l < SPH_DIM; l++)
@@ -44,7 +44,7 @@ static void mls_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t
         const sph_set *set = &sim->set[t->home_set[h]];
         const sph_gather g = {t, sph_near_of(t, &t->bodies), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &set->rho0_r};
         if (!SPH_WITH_SEVERAL_FLUIDS || !sim->mixed || t->of->kin == set->kin)
-            sph_sum_home(sim, t, &t->bodies, h, SPH_SUM_MASK(0, SUMS), mls_pair, &g);
+            sph_sum_home(sim, t, &t->bodies, h, SPH_SUM_MASK(0, MLS_SUMS), mls_pair, &g);
     }
 }
 
@@ -61,16 +61,16 @@ static void mls_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     for (int k = 0; k < SPH_DIM && spans; k++) {
         sph_real c = 0;
         for (int l = 0; l < SPH_DIM; l++)
-            c += inv[k][l] * v_fold(t->sum[SUM_M + l][h]);
+            c += inv[k][l] * v_fold(t->sum[SUM_MOMENT + l][h]);
         up -= c * v_fold(t->sum[SUM_F + k][h]);
-        down -= c * v_fold(t->sum[SUM_M + k][h]);
+        down -= c * v_fold(t->sum[SUM_MOMENT + k][h]);
     }
     const bool fine = down > (sph_real)0.05 * a;
     sim->tmp[t->home_at[h]] = (fine ? up / down : b / a) / rho0;
 }
 static void mls_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SUMS), true, 0, mls_tile, mls_finish,
+    const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, MLS_SUMS), true, 0, mls_tile, mls_finish,
                          SPH_WITH_SEVERAL_FLUIDS && sim->mixed ? SPH_APART_KIN : 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

@@ -118,11 +118,11 @@ void sph_sift_tile(const sph_sim *sim, sph_thread *t, sph_tile *tile, uint32_t h
 /* ---- what one home can reach ---- */
 
 /* a home's place, and the columns that say where candidates are */
-typedef struct view {
+typedef struct place_view {
     vreal home[SPH_DIM];
     const sph_real *x[SPH_DIM];
-} view;
-SPH_INLINE vint is_within(const view *v, uint32_t j, vreal reach2)
+} place_view;
+SPH_INLINE vint is_within(const place_view *v, uint32_t j, vreal reach2)
 {
     vreal dx[SPH_DIM];
     SPH_UNROLL
@@ -132,7 +132,7 @@ SPH_INLINE vint is_within(const view *v, uint32_t j, vreal reach2)
 }
 
 /* those that are within reach, or (where that is not null) were */
-SPH_INLINE uint32_t list_within(const sph_sim *sim, sph_sifted *s, const view *is, const view *was)
+SPH_INLINE uint32_t list_within(const sph_sim *sim, sph_sifted *s, const place_view *is, const place_view *was)
 {
     const vreal reach2 = v_set(sim->fac.reach2);
     uint32_t found = 0;
@@ -155,7 +155,7 @@ SPH_INLINE uint32_t list_within(const sph_sim *sim, sph_sifted *s, const view *i
 uint32_t sph_find_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t home)
 {
     const uint32_t other = tile == &t->bodies ? t->sifted.sweep->other_place : 0;
-    view is, was;
+    place_view is, was;
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         is.home[k] = v_set(t->home.x[k][home]);

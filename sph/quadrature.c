@@ -121,28 +121,29 @@ static void weight_finish(sph_sim *sim, sph_thread *t, uint32_t h)
         *phi = 1 + (more < -most ? -most : more > most ? most : more);
 }
 
-static bool solid_home(const sph_sim *sim, const sph_set *s)
+static bool cover_home(const sph_sim *sim, const sph_set *s)
 {
     (void)sim;
     return sph_is_solid(s);
 }
 static bool weighed_home(const sph_sim *sim, const sph_set *s) { return kind_of(sim, s) > 0; }
 
-static uint32_t columns_of(const sph_sim *sim)
+static uint32_t weighing_columns(const sph_sim *sim)
 {
     return 1u << SPH_COLUMN_quadrature | (sph_is_total(&sim->cfg) ? 1u << SPH_COLUMN_reference : 0);
 }
 static uint8_t other_place(const sph_sim *sim) { return sph_is_total(&sim->cfg) ? 1 + SPH_COLUMN_reference : 0; }
 static void cover_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {solid_home, SPH_BODIES,   SPH_SUM_MASK(SUM_Q, 1), false, columns_of(sim),
-                         cover_tile, cover_finish, 0,          other_place(sim)};
+    const sph_sweep w = {cover_home, SPH_BODIES,   SPH_SUM_MASK(SUM_Q, 1), false, weighing_columns(sim),
+                         cover_tile, cover_finish, 0,                      other_place(sim)};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static void weight_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {weighed_home, SPH_BODIES,    SPH_SUM_MASK(SUM_Q, 1), false,
-                         columns_of(sim) | 1u << SPH_COLUMN_cover, weight_tile, weight_finish, 0, other_place(sim)};
+    const uint32_t columns = weighing_columns(sim) | 1u << SPH_COLUMN_cover;
+    const sph_sweep w = {weighed_home, SPH_BODIES,    SPH_SUM_MASK(SUM_Q, 1), false, columns,
+                         weight_tile,  weight_finish, 0,                      other_place(sim)};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static bool weighs(const sph_sim *sim) { return sph_weighs_faces(&sim->cfg); }

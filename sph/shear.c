@@ -88,7 +88,7 @@ static void gradient_factor(const sph_sim *sim, const sph_thread *t, uint32_t h,
 }
 
 /* L of a home (1/s) */
-static void velocity_gradient(const sph_sim *sim, const sph_thread *t, uint32_t h, const sph_real (*b)[SPH_DIM],
+static void fluid_velocity_gradient(const sph_sim *sim, const sph_thread *t, uint32_t h, const sph_real (*b)[SPH_DIM],
                               sph_real (*out)[SPH_DIM])
 {
     for (int k = 0; k < SPH_DIM; k++)
@@ -142,7 +142,7 @@ static void shear_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     const sph_real scale = sph_weak_scheme(sim->cfg.scheme) ? t->home.rho[h] : 1; /* T = tau/rho B/rho, weak: tau B */
     sph_real b[SPH_DIM][SPH_DIM], l[SPH_DIM][SPH_DIM];
     gradient_factor(sim, t, h, b);
-    velocity_gradient(sim, t, h, (const sph_real(*)[SPH_DIM])b, l);
+    fluid_velocity_gradient(sim, t, h, (const sph_real(*)[SPH_DIM])b, l);
     const sph_real nu = make_stress(&sim->cfg, l);
     for (int k = 0; k < SPH_DIM; k++)
         for (int m = 0; m < SPH_DIM; m++) {

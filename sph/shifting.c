@@ -128,7 +128,7 @@ static double energy(const sph_sim *sim, const sph_set *s, sph_real d)
 
 /* fills space: the density of particle i by a share of what its cover is too much; returns what that takes of its
    internal energy, J/kg */
-static double fill(const sph_sim *sim, const sph_set *s, uint32_t i, sph_real share)
+static double fill_space(const sph_sim *sim, const sph_set *s, uint32_t i, sph_real share)
 {
     sph_real *d = &sim->buf[sim->dst].rho[0][i];
     const sph_real was = *d, more = share * sim->disorder[SPH_DIM][i];
@@ -148,7 +148,7 @@ static void shift_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
         const uint8_t set = sim->buf[sim->dst].set[0][i];
         if (set == SPH_DEAD || !sph_is_body(&sim->set[set]))
             continue;
-        double taken = fill(sim, &sim->set[set], i, share);
+        double taken = fill_space(sim, &sim->set[set], i, share);
         if (drift_of(sim, i, way * (4 * h), d))
             taken += shift(sim, i, d);
         sum += sim->set[set].mass * taken;

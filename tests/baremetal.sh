@@ -39,6 +39,8 @@ at_most tank_m4f_exit_code $code "" 0
 equal tank_m4f_hash "$dir/tank.txt" "$dir/tank_host.txt"
 
 echo "a dam break in $RAM bytes of RAM on $metal:"
+# scratch has room for the sums of every module that is compiled in: this image has those of water
+METAL_CFLAGS="${METAL_CFLAGS:-} -DSPH_WITH_SOLID=0 -DSPH_WITH_SHIFTING=0"
 metal_build "$dir/ram_roomy" -O2 2f "" tests/metal_ram.c || failed "the dam break does not build"
 metal_build_host "$dir/ram_host" 2f tests/metal_ram.c || failed "the dam break does not build for this machine"
 "$dir/ram_host" >"$dir/ram_host.txt" || failed "the dam break does not run on this machine"

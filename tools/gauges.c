@@ -51,7 +51,7 @@ bool gauges_take(gauges *g, const build *b, const build_scene *scene, const char
             return false;
         if (probe) {
             name_column(g, scene, "pressure", x, n, "Pa");
-            for (uint32_t k = 0; k < n; k++)
+            for (uint32_t k = 0; k < n && k < 3; k++)
                 name_column(g, scene, speeds[k], x, n, "m/s");
             name_column(g, scene, "cover", x, n, "-");
         } else {
