@@ -20,27 +20,33 @@ typedef struct filling {
 
 /* ---- column sets ---- */
 
-/* whether the pass asks for a column set, and the set is of this class */
-SPH_INLINE bool asks_for(const filling *f, uint32_t set, bool ghosts)
+/* of the column sets that are still asked for, bit by bit: the first, which is then taken off */
+SPH_INLINE uint32_t take_set(uint32_t *asked)
 {
-    return f->w->columns >> set & 1 && f->sim->columns[set].ghosts == ghosts;
+    const uint32_t set = (uint32_t)__builtin_ctz(*asked);
+    *asked &= *asked - 1;
+    return set;
 }
 
 /* the column sets of a run, from place `at` on */
 static __attribute__((noinline)) void load_sets(const filling *f, const sph_candidates *r, bool ghosts, bool homes)
 {
     const uint32_t room = homes ? SPH_HOME_ROOM : SPH_TILE_ROOM;
-    for (uint32_t c = 0; c < SPH_COLUMN_COUNT; c++)
-        if (asks_for(f, c, ghosts))
+    for (uint32_t asked = f->w->columns; asked;) {
+        const uint32_t c = take_set(&asked);
+        if (f->sim->columns[c].ghosts == ghosts)
             f->sim->columns[c].load(r, (homes ? sph_home_columns_of : sph_columns_of)(f->sim, f->t, c) + r->at, room);
+    }
 }
 
 /* whatever stands behind the last candidate must stay finite when multiplied by no mass */
 static __attribute__((noinline)) void close_sets(const filling *f, uint32_t n, bool ghosts)
 {
-    for (uint32_t c = 0; c < SPH_COLUMN_COUNT; c++)
-        for (uint32_t k = 0; asks_for(f, c, ghosts) && k < f->sim->columns[c].rows; k++)
+    for (uint32_t asked = f->w->columns; asked;) {
+        const uint32_t c = take_set(&asked);
+        for (uint32_t k = 0; f->sim->columns[c].ghosts == ghosts && k < f->sim->columns[c].rows; k++)
             memset(sph_columns_of(f->sim, f->t, c) + (size_t)k * SPH_TILE_ROOM + n, 0, SPH_LANES * sizeof(sph_real));
+    }
 }
 
 /* ---- tiles ---- */
