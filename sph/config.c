@@ -57,6 +57,19 @@ static sph_status check_fluids(const sph_config *c, sph_report *r)
     return SPH_OK;
 }
 
+static sph_status check_energy(const sph_config *c, sph_report *r)
+{
+    const bool kicks = SPH_IS(c->integrator, KICK_DRIFT_KICK) || SPH_IS(c->integrator, LEAP_FROG);
+    if (SPH_IS(c->eos, IDEAL_GAS) && !c->energy)
+        return sph_refuse(r, "energy", "true where eos is SPH_IDEAL_GAS", 0);
+    if (c->energy && sph_has_solids(c))
+        return sph_refuse(r, "energy", "false in scenes with solids", 1);
+    if (c->energy && sph_sums_density(c) && (kicks || c->eos != SPH_IDEAL_GAS))
+        return sph_refuse(r, "density", "SPH_CONTINUITY with the energy equation, but for SPH_IDEAL_GAS in the "
+                                      "predictor-corrector and Runge-Kutta", c->density);
+    return SPH_OK;
+}
+
 /* what the choices of solids ask of each other */
 static sph_status check_solids(const sph_config *c, sph_report *r)
 {
@@ -93,6 +106,7 @@ sph_status sph_check_config(const sph_config *c, sph_grid *grid, size_t *bytes, 
         return sph_refuse(r, "cookie", "a configuration made by sph_config_default of this version", c->cookie);
     if ((st = sph_options_check(c, r)) != SPH_OK || (st = check_hooks(c, r)) != SPH_OK ||
         (st = check_domain(c, r)) != SPH_OK || (st = check_fluids(c, r)) != SPH_OK ||
+        (SPH_WITH_ENERGY && (st = check_energy(c, r)) != SPH_OK) ||
         (SPH_WITH_SPONGE && (st = sph_check_sponge(c, r)) != SPH_OK) ||
         (SPH_WITH_SHIFTING && (st = sph_check_shifting(c, r)) != SPH_OK) ||
         (st = check_solids(c, r)) != SPH_OK || (st = sph_make_grid(c, grid, r)) != SPH_OK)

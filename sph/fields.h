@@ -49,6 +49,8 @@ typedef sph_int sph_pos;
     X(damage, sph_real, 1, "1", sph_damages(c), SPH_CARRIED | SPH_SHARE) /* D^(1/SPH_DIM) */                      \
     X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c), SPH_DISPLACED | SPH_VECTOR) /* since the start */      \
     X(quadrature, sph_real, 1, "1", sph_weighs_faces(c), SPH_CARRIED | SPH_NOT_NEGATIVE) /* phi; 0: 1 */       \
+    X(energy, sph_real, 1, "J/kg", sph_has_energy(c), SPH_EVOLVES(denergy) | SPH_NOT_NEGATIVE)                    \
+    X(denergy, sph_real, 1, "W/kg", sph_has_energy(c), SPH_RATE)                                                  \
     X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: an index into src */              \
     X(set, uint8_t, 1, "1", true, SPH_PLACED)                                                                     \
     SPH_EXTRA_FIELDS(X)

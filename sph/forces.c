@@ -6,7 +6,7 @@
      pressure.h     force of the pressure       stress.h       force of the stress, and the velocity gradient
      gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
      shear.h        viscous stress              xsph.h         drift beside the velocity   pair_power.h   the books
-     shift_sums.h   disorder
+     shift_sums.h   disorder                    energy.h       heat, sound of each particle
 
    Kick-drift-kick and leap-frog sum rates and forces in sweeps of their own (choice `part`): with the same bits as both
    at once, of which each would use a half.
@@ -17,6 +17,7 @@
 #include "boundary.h"
 #include "continuity.h"
 #include "diffusion.h"
+#include "energy.h"
 #include "gradient.h"
 #include "pair_power.h"
 #include "pressure.h"
@@ -40,10 +41,11 @@ typedef struct at_home {
     const sph_mirror_tile *mirror;
     const sph_stress_tile *stress;
     const sph_reference_tile *reference;
-    const sph_real *smoothed, *corrected, *sheared;
+    const sph_real *smoothed, *corrected, *sheared, *sounds;
     const sph_home *home;
     const sph_gradient_home *gradient;
     const sph_shear_home *shear;
+    const sph_energy_home *energy;
     const sph_stress_home *solid;
     const sph_reference_home *was;
 } at_home;
@@ -123,11 +125,12 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
         sph_contact(c, o->f, o->home, &p, s);
     }
     sph_inverse_distance(c, o->f, o->home, &p);
-    sph_viscosity(c, o->f, o->home, o->mirror, &p, s);
+    sph_viscosity(c, o->f, o->home, o->mirror, sph_pair_sound(c, o->energy, o->sounds, &p), &p, s);
     if (sph_takes_forces(c))
         momentum(c, &p, s);
     sph_shear_force(c, o->home, o->mirror, o->shear, o->sheared, &p, s);
     sph_diffusion(c, o->f, o->home, &p, s);
+    sph_heat(c, o->energy, &p, s);
     sph_xsph(c, o->home, &p, s);
     sph_pair_power(c, o->home, &p, s);
     sph_shift_sums(c, o->f, &p, s);
@@ -150,7 +153,8 @@ SPH_INLINE uint32_t book_sums(const sph_choice *c, bool wall)
 SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
 {
     const uint32_t gradient = SPH_WITH_SOLID && c->solid ? SPH_SUM_MASK(SUM_GRADIENT, SPH_NL) : 0;
-    const uint32_t rates = SUM_MASK(DRHO) | gradient;
+    const uint32_t heat = SPH_WITH_ENERGY && c->energy ? SUM_MASK(HEAT) : 0;
+    const uint32_t rates = SUM_MASK(DRHO) | gradient | heat;
     const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
                             (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS) : 0) |
                             (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0);
@@ -176,6 +180,12 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         o.sheared = sph_near_columns_of(sim, t, SPH_COLUMN_shear);
         shear = sph_spread_shear(sim, t, h);
         o.shear = &shear;
+    }
+    sph_energy_home energy;
+    if (SPH_WITH_ENERGY && c->energy) {
+        o.sounds = sph_near_columns_of(sim, t, SPH_COLUMN_energy);
+        energy = sph_spread_energy(sim, t, h);
+        o.energy = &energy;
     }
     sph_stress_home solid;
     if (SPH_WITH_SOLID) /* a place, whether the scene has it or not */
@@ -229,19 +239,28 @@ SPH_APART void force_fluid(const sph_choice *c, const sph_factors *f, const sph_
     own.solid = own.total = own.hat = own.repulsion = 0;
     own.loses = SPH_SMALL && own.loses;
     own.gradient = SPH_SMALL ? own.gradient : 0;
+    own.energy = SPH_SMALL && own.energy;
+    force_general(&own, f, sim, t, h);
+}
+/* whose energies go by their equation */
+SPH_APART void force_energy(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    sph_choice own = *c;
+    own.solid = own.total = own.hat = own.repulsion = own.loses = 0;
+    own.energy = 1;
     force_general(&own, f, sim, t, h);
 }
 SPH_APART void force_corrected(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = own.repulsion = own.loses = 0;
+    own.solid = own.total = own.hat = own.repulsion = own.loses = own.energy = 0;
     force_general(&own, f, sim, t, h);
 }
 SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = true;
-    own.gradient = own.shear = own.shifting = 0; /* of fluids alone */
+    own.gradient = own.shear = own.shifting = own.energy = 0; /* of fluids alone */
     own.loses = SPH_SMALL && own.loses;
     own.total = SPH_HAS_TOTAL && own.total;
     own.hat = SPH_HAS_HAT && own.hat;
@@ -444,14 +463,15 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
     const sph_config *c = &sim->cfg;
     const bool rates = sph_sums_rates(sim), forces = sph_sums_forces(sim), books = forces && sph_keeps_books(c);
     const bool hat = sph_smooths_strain(c), repels = forces && sph_repels(c), xsph = sph_uses_xsph(c) && !hat;
+    const bool viscous = forces || sph_has_energy(c); /* what it takes becomes heat */
     const uint32_t part = rates && forces ? SPH_PART_BOTH : rates ? SPH_PART_RATES : SPH_PART_FORCES;
     return (sph_choice){.kernel = (uint8_t)c->kernel,
                         .scheme = (uint8_t)c->scheme,
-                        .viscosity = (uint8_t)(forces ? c->viscosity : SPH_INVISCID),
+                        .viscosity = (uint8_t)(viscous ? c->viscosity : SPH_INVISCID),
                         .diffusion = (uint8_t)(rates || books ? c->diffusion : SPH_NO_DIFFUSION),
                         .gradient = (uint8_t)c->gradient,
                         .wall = wall,
-                        .beta = forces && c->beta != 0,
+                        .beta = viscous && c->beta != 0,
                         .xsph = forces && xsph,
                         .books = books,
                         .solid = sph_has_solids(c),
@@ -462,7 +482,8 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0),
                         .part = (uint8_t)part,
                          .shifting = forces && sph_shifts(c),
-                         .shear = forces && sph_shears(c)};
+                         .shear = viscous && sph_shears(c),
+                         .energy = sph_has_energy(c)};
 }
 
 /* what the tiles of bodies must be of one kind for (sph_sweep.apart) */
@@ -470,7 +491,7 @@ static uint8_t kept_apart(const sph_sim *sim)
 {
     const sph_config *c = &sim->cfg;
     const bool artificial = sph_viscous(c->viscosity) && !SPH_IS(c->viscosity, MORRIS);
-    const bool asks = (sph_diffusive(c->diffusion) && sim->mixed) || (artificial && sim->own_sound);
+    const bool asks = (sph_diffusive(c->diffusion) && sim->mixed) || (artificial && sim->own_sound && !sph_has_energy(c));
     uint8_t apart = SPH_WITH_SEVERAL_FLUIDS && asks ? SPH_APART_KIN : 0;
     for (uint32_t k = 0; k < SPH_DIM && SPH_HAS_MIRRORS && SPH_IS(c->diffusion, HYDROSTATIC); k++)
         for (uint32_t side = 0; side < 2; side++) {
@@ -538,6 +559,8 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
             force_losing(&c, f, sim, t, h);
         else if (SPH_WITH_SOLID && c.solid)
             force_solid(&c, f, sim, t, h);
+        else if (SPH_WITH_ENERGY && !SPH_SMALL && c.energy)
+            force_energy(&c, f, sim, t, h);
         else if (SPH_HAS_FLUID_GRADIENT && !SPH_SMALL && c.gradient)
             force_corrected(&c, f, sim, t, h);
         else
@@ -589,7 +612,8 @@ static void finish_powers(sph_sim *sim, const sph_thread *t, uint32_t h, sph_rea
     const uint32_t i = t->home_at[h];
     const sph_set *set = &sim->set[t->home_set[h]];
     const sph_real rho = t->home.rho[h], press = t->home.press[h], moved = t->sum[SUM_BOUNDARY][h][SPH_DIM];
-    const sph_real ratio = sph_weak_scheme(sim->cfg.scheme) ? press / (rho * rho) : press;
+    const sph_real squared = sph_weak_scheme(sim->cfg.scheme) ? press / (rho * rho) : press;
+    const sph_real ratio = sph_is_gas(set) ? 0 : squared; /* the energy of a gas does not follow from its density */
     const sph_real whole = SPH_WITH_SOLID && press < 0 ? sph_whole_of(&sim->buf[sim->dst], i) : 1;
     const sph_real phi = sph_quadrature_of(&sim->buf[sim->dst], i);
     sph_real in = moved, lost = 0; /* springs of boundary forces; what XSPH's drift does in gravity */
@@ -663,6 +687,8 @@ static sph_real finish_rates(const sph_sim *sim, const sph_thread *t, uint32_t h
         raw_gradient(sim, t, h, raw);
         d += sph_stress_rates(sim, set, t->home_at[h], raw, t->home.rho[h]) * t->home.rho[h] * set->inv_rho0_r;
     }
+    if (sph_has_energy(&sim->cfg) && sph_is_body(set))
+        sph_finish_energy(sim, t, h, d);
     return f->continuity ? d : 0;
 }
 
@@ -689,7 +715,8 @@ SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
     }
     if (sph_shifts(&sim->cfg))
         sph_finish_shift(sim, t, h);
-    t->peaks.mu = larger(t->peaks.mu, v_fold_max(t->sum[SUM_MU][h]));
+    const sph_real mu = v_fold_max(t->sum[SUM_MU][h]);
+    t->peaks.mu = larger(t->peaks.mu, sph_has_energy(&sim->cfg) ? sph_energy_mu(sim, t, h, mu) : mu);
     t->peaks.acc = larger(t->peaks.acc, a2);
     t->peaks.speed = larger(t->peaks.speed, v2);
     return a2;
@@ -719,7 +746,7 @@ static uint32_t columns_of(const sph_choice *c)
 {
     const bool forces = sph_takes_forces(c), gradient = c->gradient && (forces || !SPH_IS(c->gradient, BONET_LOK));
     return (SPH_HAS_LAYERED_WALLS && (sph_viscous(c->viscosity) || c->shear) ? 1u << SPH_COLUMN_mirror : 0) |
-           (c->shear ? 1u << SPH_COLUMN_shear : 0) |
+           (c->shear ? 1u << SPH_COLUMN_shear : 0) | (SPH_WITH_ENERGY && c->energy ? 1u << SPH_COLUMN_energy : 0) |
            (c->solid && forces ? 1u << SPH_COLUMN_stress : 0) | (c->total ? 1u << SPH_COLUMN_reference : 0) |
            (c->hat ? 1u << SPH_COLUMN_smoothed : 0) | (gradient ? 1u << SPH_COLUMN_gradient : 0);
 }

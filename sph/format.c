@@ -196,7 +196,7 @@ static void encode_pressure(unsigned char *piece, const sph_sim *sim, uint32_t f
     for (uint32_t i = 0; i < n; i++) {
         const uint8_t set = b->set[0][first + i];
         const sph_real p =
-            set == SPH_DEAD ? 0 : (sph_real)sph_pressure(sim, &sim->set[set], (double)b->rho[0][first + i]);
+            set == SPH_DEAD ? 0 : (sph_real)sph_pressure_at(sim, b, first + i);
         encode(piece + i * sizeof p, &p, 0, 1, sizeof p);
     }
 }
@@ -250,6 +250,7 @@ static const uint32_t picture[SPH_FIELD_COUNT] = {
     [SPH_FIELD_NUMBER_stress] = SPH_DUMP_STRESS,
     [SPH_FIELD_NUMBER_plastic] = SPH_DUMP_DAMAGE,
     [SPH_FIELD_NUMBER_damage] = SPH_DUMP_DAMAGE,
+    [SPH_FIELD_NUMBER_energy] = SPH_DUMP_ENERGY,
 };
 
 bool sph_move_arrays(sph_stream *s, const sph_sim *sim, const sph_buffer *b, uint32_t fields, uint32_t n)

@@ -69,6 +69,8 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface)
     if (axis < 0 || !(sph_abs(surface) < 1e15))
         return sph_setup_bad(sim, "surface", "finite, with gravity along one axis", surface);
     const sph_set *s = &sim->set[set];
+    if (sph_is_gas(s))
+        return sph_setup_bad(sim, "set", "one whose pressure follows from its density alone", set);
     double g = sim->cfg.gravity[axis];
     const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers];
     for (uint32_t i = 0; i < sim->now.count; i++)
@@ -86,4 +88,32 @@ sph_status sph_apply_hydrostatic(sph_sim *sim, uint32_t set, double surface)
     sim->now.primed = false;
     return SPH_OK;
 }
+
+#if SPH_WITH_ENERGY
+sph_status sph_apply_energy(sph_sim *sim, uint32_t set, sph_energy_fn fn, void *ctx)
+{
+    sph_status st = sph_setup_idle(sim, "sph_apply_energy");
+    if (st || (st = sph_setup_check_body(sim, set)) != SPH_OK)
+        return st;
+    if (!fn || !sim->cfg.energy)
+        return sph_setup_bad(sim, fn ? "energy" : "fn", fn ? "on (an option)" : "a function", 0);
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers];
+    for (uint32_t i = 0; i < sim->now.count; i++) {
+        if (b->set[0][i] != set)
+            continue;
+        double x[SPH_DIM], u = (double)b->energy[0][i];
+        for (int k = 0; k < SPH_DIM; k++)
+            x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
+        fn(ctx, x, &u);
+        if (!(u >= 0 && u < 1e30))
+            return sph_setup_bad(sim, "field energy", "0 .. 1e30", u);
+        wait->energy[0][i] = (sph_real)u;
+    }
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        if (b->set[0][i] == set)
+            b->energy[0][i] = wait->energy[0][i];
+    sim->now.primed = false;
+    return SPH_OK;
+}
+#endif
 #endif

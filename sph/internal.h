@@ -207,7 +207,7 @@ struct sph_pass {
      SPH_WITH_STANDARD_WICK << SPH_STANDARD_WICK | SPH_WITH_WEAK_WICK << SPH_WEAK_WICK)
 #define SPH_EOSES_IN                                                                                        \
     (SPH_WITH_TAIT << SPH_TAIT | SPH_WITH_TAIT_GRAY << SPH_TAIT_GRAY | SPH_WITH_LINEAR << SPH_LINEAR |      \
-     SPH_WITH_ISOTHERMAL << SPH_ISOTHERMAL)
+     SPH_WITH_ISOTHERMAL << SPH_ISOTHERMAL | SPH_WITH_IDEAL_GAS << SPH_IDEAL_GAS)
 #define SPH_VISCOSITIES_IN                                                                                  \
     (1 << SPH_INVISCID | SPH_WITH_ARTIFICIAL << SPH_ARTIFICIAL |                                            \
      SPH_WITH_ARTIFICIAL_APPROACHING << SPH_ARTIFICIAL_APPROACHING | SPH_WITH_MORRIS << SPH_MORRIS)
@@ -283,6 +283,7 @@ SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->s
 SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
 SPH_INLINE bool sph_weighs_faces(const sph_config *c) { return SPH_HAS_QUADRATURE && c->face_quadrature; }
 SPH_INLINE bool sph_shears(const sph_config *c) { return SPH_WITH_SHEAR && c->shear != SPH_NO_SHEAR; }
+SPH_INLINE bool sph_has_energy(const sph_config *c) { return SPH_WITH_ENERGY && c->energy; }
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
 SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }
@@ -303,6 +304,9 @@ SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set
 SPH_INLINE bool sph_is_compressible(const sph_set *s) { return SPH_WITH_WALL_GHOST && s->compressible; }
 SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
+/* a set whose pressure is that of an ideal gas: it follows from density and energy */
+SPH_INLINE bool sph_is_gas(const sph_set *s) { return SPH_IS(s->eos, IDEAL_GAS); }
+
 /* ---- shared by files ---- */
 
 /* state.c: records a failure with the pass under way and tells the host's fault hook; returns s */
@@ -319,7 +323,7 @@ sph_real sph_whole_of(const sph_buffer *b, uint32_t i);
 #define sph_quadrature_of SPH_NAME(quadrature_of_)
 sph_real sph_quadrature_of(const sph_buffer *b, uint32_t i);
 /* The energy that a particle of a buffer holds (J): of motion; in gravity, from height 0; of compression by the
-   pressure that acts; of distortion, (1 - D) S:S/(4 mu) on its volume at rest; and what its yielding took. */
+   pressure that acts, and its heat (energy.h); of distortion, (1 - D) S:S/(4 mu) on its volume at rest; and what its yielding took. */
 typedef struct sph_energy {
     double kinetic, potential, internal, elastic, plastic;
 } sph_energy;
@@ -382,6 +386,13 @@ SPH_INLINE bool sph_has_floor(const sph_sim *sim, const sph_set *s)
 SPH_INLINE double sph_pressure(const sph_sim *sim, const sph_set *s, double d)
 {
     return sph_eos_pressure(s->eos, (double)s->b_r, d, sph_has_floor(sim, s));
+}
+/* of particle i of a buffer */
+SPH_INLINE double sph_pressure_at(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const sph_set *s = &sim->set[b->set[0][i]];
+    const double d = (double)b->rho[0][i];
+    return sph_is_gas(s) ? (double)s->b_r * (1 + d) * (double)b->energy[0][i] : sph_pressure(sim, s, d);
 }
 SPH_INLINE double sph_density_of(const sph_sim *sim, const sph_set *s, double p)
 {

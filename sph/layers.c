@@ -46,6 +46,9 @@ static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
         return sph_setup_bad(sim, "wall.kind", "one of SPH_WALL_LENNARD_JONES .. SPH_WALL_ADAMI", w->kind);
     if (!sph_in(SPH_WALLS_IN, w->kind))
         return sph_setup_bad(sim, "wall.kind", "a kind that was compiled in (modules.h)", w->kind);
+    if (SPH_IS(sim->cfg.eos, IDEAL_GAS) && layered(w))
+        return sph_setup_bad(sim, "wall.kind", "a wall of one row, or a mirror face, where the configuration's eos is "
+                             "SPH_IDEAL_GAS", w->kind);
     if (SPH_IS(w->kind, WALL_MONAGHAN_KOS) && sim->grid.support < 2 * sim->cfg.spacing)
         return sph_setup_bad(sim, "wall.kind", "another than MONAGHAN_KOS, which reaches two spacings, where the "
                              "kernel's support is less", w->kind);

@@ -41,6 +41,7 @@
     X(BONET_LOK, 1) /* corrected gradients of fluids */                                                    \
     X(RENORMALISED, 1)                                                                                     \
     X(SHEAR, 1) /* viscous stress of fluids: nested gradients, large eddies */                             \
+    X(ENERGY, 1) /* energy equation, ideal gas */                                                          \
     X(PREDICTOR_CORRECTOR, 1) /* integrators */                                                            \
     X(KICK_DRIFT_KICK, 1)                                                                                  \
     X(LEAP_FROG, 1)                                                                                        \
@@ -95,6 +96,7 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_WITH_NESTED SPH_WITH_SHEAR
 #define SPH_WITH_SMAGORINSKY SPH_WITH_SHEAR
 #define SPH_WITH_SMAGORINSKY_WICK SPH_WITH_SHEAR
+#define SPH_WITH_IDEAL_GAS SPH_WITH_ENERGY
 #define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
 #define SPH_HAS_BOUNDED (SPH_HAS_DIFFUSION || SPH_WITH_SHIFTING) /* volumes with a bound (tiles.c) */
 /* sums that depend on whom they meet: another material, or an image of what is heavier below */

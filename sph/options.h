@@ -67,8 +67,12 @@
       "scheme", "-", 0, SPH_SCHEMES - 1, USUAL)                                                                       \
     P(A, density, CHOICE, SPH_CONTINUITY, 0, SPH_DENSITIES, SPH_DENSITIES_IN, "SPH_CONTINUITY or SPH_SUMMATION",      \
       FIXED, "-", "density: continuity summation", "density", "-", 0, SPH_DENSITIES - 1, USUAL)                       \
-    P(A, eos, CHOICE, SPH_TAIT, 0, SPH_EOSES, SPH_EOSES_IN, "one of SPH_TAIT .. SPH_ISOTHERMAL", FIXED, "-",          \
-      "equation of state: tait tait_gray linear isothermal", "eos", "-", 0, SPH_EOSES - 1, OWN)                       \
+    P(A, eos, CHOICE, SPH_TAIT, 0, SPH_EOSES, SPH_EOSES_IN, "one of SPH_TAIT .. SPH_IDEAL_GAS", FIXED, "-",           \
+      "equation of state: tait tait_gray linear isothermal ideal_gas", "eos", "-", 0, SPH_EOSES - 1, OWN)             \
+    P(A, energy, BOOL, false, 0, 1, SPH_WITH_ENERGY, "false or true", FIXED, "-", /* 2 reals a particle */            \
+      "energy equation of each particle: no yes", "energy", "-", 0, 1, USUAL)                                         \
+    P(A, gamma, REAL, 1.4, 1.01f, 10, true, "1.01 .. 10", FIXED, "-",                                                 \
+      "ratio of specific heats of SPH_IDEAL_GAS", "gamma", "-", 1.02, 10, USUAL)                                      \
     P(A, pressure_floor, BOOL, false, 0, 1, true, "false or true", FIXED, "-",                                        \
       "hold the pressure of fluids at 0 or above: no yes", "floor", "-", 0, 1, OWN)                                   \
     P(A, viscosity, CHOICE, SPH_ARTIFICIAL, 0, SPH_VISCOSITIES, SPH_VISCOSITIES_IN,                                   \

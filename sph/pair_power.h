@@ -37,7 +37,10 @@ SPH_INLINE void sph_pair_power(const sph_choice *c, const sph_home *h, const sph
         return;
     if (p->wall) {
         const vreal viscous = SPH_IS(c->viscosity, MORRIS) ? -(p->fm * sph_dot(p->dw, p->dv)) : -(p->visc * p->ve);
-        s[SUM_VISCOUS] = s[SUM_VISCOUS] + viscous;
+        const vreal heat = SPH_WITH_ENERGY && c->energy ? sph_pair_heat(c, p) : viscous;
+        s[SUM_VISCOUS] = s[SUM_VISCOUS] + heat;
+        if (SPH_WITH_ENERGY && c->energy)
+            s[SUM_IN_WALLS] = s[SUM_IN_WALLS] + (viscous - heat);
         sph_wall_power(c, h, p, s);
         return;
     }
@@ -46,8 +49,15 @@ SPH_INLINE void sph_pair_power(const sph_choice *c, const sph_home *h, const sph
     else
         s[SUM_VISCOUS] = s[SUM_VISCOUS] - p->visc * sph_pair_share(c, h, p, p->ex, p->ve);
     s[SUM_DIFFUSED] = s[SUM_DIFFUSED] + p->diff;
-    if (c->loses)
-        s[SUM_UNBALANCED] = s[SUM_UNBALANCED] + (sph_dot(p->push, h->v) - p->gain);
+    if (!c->loses)
+        return;
+    s[SUM_UNBALANCED] = s[SUM_UNBALANCED] + (sph_dot(p->push, h->v) - p->gain);
+    if (!SPH_WITH_ENERGY || !c->energy)
+        return;
+    if (SPH_IS(c->viscosity, MORRIS)) /* what is taken from the motion less what becomes heat */
+        s[SUM_UNBALANCED] = s[SUM_UNBALANCED] - p->fm * (sph_dot(p->dw, h->v) - sph_dot(p->dw, p->dv) * (sph_real)0.5);
+    else
+        s[SUM_UNBALANCED] = s[SUM_UNBALANCED] - p->visc * (sph_dot(p->ex, h->v) - p->ve * (sph_real)0.5);
 }
 
 #endif

@@ -17,7 +17,7 @@ SPH_INLINE vreal sph_pressure_gain(const sph_choice *c, const sph_factors *f, co
     const bool weak = sph_weak_scheme(c->scheme);
     const vreal own = weak ? h->press * (h->inv_rho * h->inv_rho) : h->press;
     const vreal other = weak ? p->press * (p->inv_rho * p->inv_rho) : p->press;
-    if (c->summed)
+    if (c->summed && !(SPH_WITH_ENERGY && c->energy))
         return p->wall ? own * p->mg * p->vr : (own + other) * p->mg * sph_dot(h->v, p->dx);
     const vreal gain = (weak ? h->press * h->inv_rho * p->inv_rho : h->press) * p->mg * p->vc;
     if (!SPH_IS(c->scheme, STANDARD_WICK) && !SPH_IS(c->scheme, WEAK_WICK))

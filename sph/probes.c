@@ -89,7 +89,7 @@ static void probe_view(const sph_sim *sim, const double *x, const view *seen, sp
         double w = s->mass / rho * kernel_w(sim, __builtin_sqrt(r2));
         o->cover += w;
         o->rho += w * rho;
-        o->p += w * sph_pressure(sim, s, e);
+        o->p += w * sph_pressure_at(sim, b, i);
         for (int k = 0; k < SPH_DIM; k++)
             o->v[k] += w * seen->flip[k] * (double)b->vel[k][i];
     }

@@ -88,7 +88,11 @@ static void run_chunks(sph_sim *sim, uint32_t n)
 static const char *const quantities[] = {"a rate or a squared magnitude", "relative density excess",
                                          "x from the domain's low corner (m)",
                                          "cells moved", "depth inside the wall (m)",
-                                         SPH_HAS_TOTAL ? "length of a bond (m)" : ""};
+                                         SPH_HAS_TOTAL ? "length of a bond (m)" : "",
+#if SPH_WITH_ENERGY
+                                         "energy (J/kg)",
+#endif
+};
 static const char *const faces[] = {"x beyond the low face (m)", "x beyond the high face (m)",
 #if SPH_DIM > 1
                                     "y beyond the low face (m)", "y beyond the high face (m)",
@@ -97,7 +101,7 @@ static const char *const faces[] = {"x beyond the low face (m)", "x beyond the h
                                     "z beyond the low face (m)", "z beyond the high face (m)",
 #endif
 };
-_Static_assert(SPH_BOND_TOO_LONG - SPH_NOT_FINITE + 1 == sizeof quantities / sizeof *quantities, "one a status");
+_Static_assert(SPH_BOND_TOO_LONG + SPH_WITH_ENERGY - SPH_NOT_FINITE + 1 == sizeof quantities / sizeof *quantities, "one a status");
 
 static sph_status report_fail(sph_sim *sim, const sph_fail *f)
 {

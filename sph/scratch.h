@@ -13,7 +13,7 @@
 #define SPH_HOME_ROOM (SPH_HOMES + SPH_LANES)
 #define SPH_SUMS                                                                                                   \
     ((SPH_DIM == 1 ? 8 : SPH_DIM == 2 ? 10 : SPH_WITH_MLS ? 14 : 12) + SPH_TENSOR_SUMS_ +                          \
-     (SPH_WITH_BOOKS ? 1 + SPH_HAS_LAYERED_WALLS + SPH_WITH_SOLID : 0))
+     (SPH_WITH_BOOKS ? 1 + SPH_HAS_LAYERED_WALLS + SPH_WITH_SOLID : 0) + (SPH_WITH_ENERGY ? 1 : 0))
 #define SPH_SWEEP_CHUNK 32u  /* cells */
 #define SPH_SLICE_CHUNK 1u   /* cells, in a step that is done in slices */
 #define SPH_LOCAL_CHUNK 256u /* particles */

@@ -75,6 +75,8 @@ static void check_motion(const sph_sim *sim, sph_span s, sph_thread *t)
     }
 }
 
+static bool is_energy(const sph_field *f) { return SPH_WITH_ENERGY && f->at == SPH_FIELD_AT(energy); }
+
 /* reals that are carried or evolve: finite, and in the range that the list of fields says */
 static void check_fields(const sph_sim *sim, sph_span s, sph_thread *t)
 {
@@ -86,7 +88,8 @@ static void check_fields(const sph_sim *sim, sph_span s, sph_thread *t)
             const sph_real low = f->range ? 0 : -most, high = f->range == SPH_SHARE ? 1 : most;
             for (uint32_t i = s.first; x && i < s.last; i++)
                 if (!(x[i] >= low && x[i] <= high))
-                    sph_fail_note(t, SPH_NOT_FINITE, b->id[0][i], (double)x[i]);
+                    sph_fail_note(t, is_energy(f) && x[i] < 0 ? SPH_ENERGY_LOST : SPH_NOT_FINITE, b->id[0][i],
+                                  (double)x[i]);
         }
 }
 

@@ -37,6 +37,8 @@ void sph_setup_finish_set(sph_sim *sim, sph_set *s)
     double scale = s->c0 * s->c0 * s->rho0;
     if (SPH_IS(s->eos, TAIT))
         scale /= 7;
+    if (sph_is_gas(s)) /* p = scale (1 + d) u */
+        scale = s->rho0 * (sim->cfg.gamma - 1);
     s->mass_r = (sph_real)s->mass;
     s->rho0_r = (sph_real)s->rho0;
     s->inv_rho0_r = (sph_real)(1 / s->rho0);
@@ -88,6 +90,12 @@ static sph_status too_many(sph_sim *sim, uint32_t more)
                      sim->now.count + more, SPH_NO_PARTICLE);
 }
 
+/* J/kg, with which a gas has the sound speed of its set */
+static sph_real sph_gas_energy(const sph_sim *sim, const sph_set *s)
+{
+    return (sph_real)(s->c0 * s->c0 / (sim->cfg.gamma * (sim->cfg.gamma - 1)));
+}
+
 /* appends one particle; x from the domain's low corner */
 sph_status sph_setup_append(sph_sim *sim, uint32_t set, const double *x, const double *v, double d)
 {
@@ -117,6 +125,10 @@ sph_status sph_setup_append(sph_sim *sim, uint32_t set, const double *x, const d
         b->plastic[0][n] = 0;
     if (SPH_HAS_DAMAGE && b->damage[0])
         b->damage[0][n] = 0;
+    if (sph_has_energy(&sim->cfg)) {
+        b->energy[0][n] = sph_is_gas(&sim->set[set]) ? sph_gas_energy(sim, &sim->set[set]) : 0;
+        b->denergy[0][n] = 0;
+    }
     b->rho[0][n] = (sph_real)d;
     b->drho[0][n] = 0;
     if (b->rise[0])

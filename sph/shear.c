@@ -161,6 +161,9 @@ static void shear_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                          sph_weak_scheme(sim->cfg.scheme), columns, shear_tile, shear_finish, 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
-static bool shears(const sph_sim *sim) { return sph_shears(&sim->cfg) && sph_sums_forces(sim); }
+static bool shears(const sph_sim *sim)
+{
+    return sph_shears(&sim->cfg) && (sph_sums_forces(sim) || sph_has_energy(&sim->cfg));
+}
 const sph_pass sph_pass_shear = {"shear", sph_sweep_chunks, shear_chunk, NULL, shears};
 #endif

@@ -31,12 +31,32 @@ SPH_INLINE sph_shear_home sph_spread_shear(const sph_sim *sim, const sph_thread 
     return o;
 }
 
-/* the books; push: what the pair adds to the sum of accelerations (a = -slope times that sum) */
-SPH_INLINE void sph_shear_power(const sph_choice *c, const sph_home *h, const sph_mirror_tile *m, sph_near *p,
-                                const vreal *push, vreal *s)
+/* what becomes heat in the home: its own stress times its part of the velocity gradient, so that all together is tau : L;
+   beside walls half of the work, by which the stress is the same on both sides */
+SPH_INLINE vreal sph_shear_heat(const sph_home *h, const sph_mirror_tile *m, sph_near *p, const vreal *push,
+                                const vreal *own)
 {
+    if (!p->wall)
+        return sph_dot(own, p->dv);
+    sph_mirror_velocity(h, m, p);
+    return sph_dot(push, p->dw) * (sph_real)0.5;
+}
+
+/* the books; own: the home's part of push; push: what the pair adds to the sum of accelerations (a = -slope times that sum) */
+SPH_INLINE void sph_shear_power(const sph_choice *c, const sph_home *h, const sph_mirror_tile *m, sph_near *p,
+                                const vreal *push, const vreal *own, vreal *s)
+{
+    if (SPH_WITH_ENERGY && c->energy && sph_takes_rates(c))
+        s[SUM_HEAT] = s[SUM_HEAT] + sph_shear_heat(h, m, p, push, own);
     if (!SPH_WITH_BOOKS || !c->books)
         return;
+    if (SPH_WITH_ENERGY && c->energy && !p->wall) { /* tau : L of each, as it becomes heat */
+        const vreal heat = sph_dot(own, p->dv);
+        s[SUM_VISCOUS] = s[SUM_VISCOUS] + heat;
+        if (c->loses)
+            s[SUM_UNBALANCED] = s[SUM_UNBALANCED] + (sph_dot(push, h->v) - heat);
+        return;
+    }
     if (!p->wall) {
         s[SUM_VISCOUS] = s[SUM_VISCOUS] + sph_pair_share(c, h, p, push, sph_dot(push, p->dv));
         return;
@@ -58,23 +78,27 @@ SPH_INLINE void sph_shear_force(const sph_choice *c, const sph_home *h, const sp
 {
     if (!SPH_WITH_SHEAR || !c->shear)
         return;
-    vreal push[SPH_DIM], w = sph_weak_scheme(c->scheme) ? p->mg * h->inv_rho * p->inv_rho : p->mg;
+    vreal push[SPH_DIM], part[SPH_DIM], w = sph_weak_scheme(c->scheme) ? p->mg * h->inv_rho * p->inv_rho : p->mg;
     if (p->wall)
         w = w * v_load(m->vis + p->j);
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        push[k] = v_set(0);
+        push[k] = part[k] = v_set(0);
         SPH_UNROLL
         for (uint32_t l = 0; l < SPH_DIM; l++) {
             const uint32_t n = k * SPH_DIM + l;
             const vreal other = p->wall ? o->t[n] : v_load(row + n * SPH_NEAR_ROOM + p->j);
             push[k] = push[k] - (o->t[n] + other) * p->dx[l];
+            if (SPH_WITH_ENERGY && c->energy)
+                part[k] = part[k] - o->t[n] * p->dx[l];
         }
         push[k] = push[k] * w;
+        if (SPH_WITH_ENERGY && c->energy)
+            part[k] = part[k] * w;
         s[SUM_ACC + k] = s[SUM_ACC + k] + push[k];
     }
     s[SUM_MU] = v_max(s[SUM_MU], o->mu);
-    sph_shear_power(c, h, m, p, push, s);
+    sph_shear_power(c, h, m, p, push, part, s);
 }
 
 #define sph_load_shear SPH_NAME(load_shear_)

@@ -123,6 +123,8 @@ static bool drift_of(const sph_sim *sim, uint32_t i, double strength, double *d)
 
 static double energy(const sph_sim *sim, const sph_set *s, sph_real d)
 {
+    if (sph_is_gas(s)) /* goes with the particle */
+        return 0;
     return sph_eos_energy(s->eos, (double)s->b_r, s->rho0, (double)d, sph_has_floor(sim, s));
 }
 

@@ -68,6 +68,7 @@ typedef float sph_real;
     X(MOVED_TOO_FAR, "a particle moved more than a cell in one step")                                  \
     X(WALL_CROSSED, "a particle crossed a wall")                                                       \
     X(BOND_TOO_LONG, "two neighbours of the total-Lagrangian form were drawn further apart than max_stretch") \
+    X(ENERGY_LOST, SPH_WITH_ENERGY ? "a particle's energy fell below 0" : "")                          \
     X(STEP_COLLAPSED, "the time step fell below dt_min")                                               \
     X(SINK_FAILED, "the byte sink or source reported a failure")                                       \
     X(DUMP_TRUNCATED, "the dump ends too early")                                                       \
@@ -124,8 +125,19 @@ enum { SPH_CONTINUITY, SPH_SUMMATION, SPH_DENSITIES };
 
 /* Equations of state, s = rho/rho0. TAIT: p = rho0 c0^2/7 (s^7 - 1), with which c0 is the sound speed at
    rho0. TAIT_GRAY: p = rho0 c0^2 (s^7 - 1) as Gray 2001 prints it: its true sound speed is sqrt(7) c0.
-   LINEAR: p = c0^2 (rho - rho0). ISOTHERMAL: p = c0^2 rho. */
-enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_EOSES };
+   LINEAR: p = c0^2 (rho - rho0). ISOTHERMAL: p = c0^2 rho. IDEAL_GAS: p = (gamma - 1) rho u, with the energy equation;
+   begins with the u (J/kg) whose sound speed is that of its set, c0^2/(gamma (gamma - 1)) (sph_apply_energy). */
+enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_IDEAL_GAS, SPH_EOSES };
+
+/* The energy equation (option `energy`, scenes without solids; SPH_USE_ENERGY): each particle has an energy u (J/kg).
+   Of an ideal gas that is all of the internal energy, du = p/rho^2 drho by the scheme's own rate of density and the heat
+   of viscosity (Wickramarachchi 2009 eqs 3.23, 3.42, 3.52, 3.81): total energy is kept at every instant in every
+   scheme but DIRECT, entropy never falls (but with RENORMALISED gradients, which want a gas). Of other fluids u is the heat of viscosity, from 0 on, beside the energy of
+   compression. Artificial viscosity has the mean sound of both particles, and steps go by the fastest. Energy below 0
+   is ENERGY_LOST. A gas stands beside mirror and periodic faces, walls of one row, and walls of another fluid: where the
+   configuration's own eos is IDEAL_GAS there are no GHOST, ADAMI walls, whose pressure must follow from their density.
+   Beside a fluid of another density take the WEAK scheme. A density that is summed: a gas alone, and not in
+   KICK_DRIFT_KICK, LEAP_FROG. */
 
 /* Forms of a solid's equations; NO_SOLID: the scene has fluids only. With T = -sigma/rho^2, K_ij the vector between two
    particles, g = (dW/dr)/r at |K|, and v_ij = v_i - v_j:
@@ -321,6 +333,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_SHIFTING 1024u
 #define SPH_USE_QUADRATURE 2048u /* face_quadrature */
 #define SPH_USE_SHEAR 4096u /* a viscous stress of fluids */
+#define SPH_USE_ENERGY 32768u /* the energy equation */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
@@ -337,6 +350,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_SHEAR) ? (SPH_DIM * SPH_DIM + 1u) * SPH_REAL_ : 0u) +                                  \
+     (((use)&SPH_USE_ENERGY) ? 2u * SPH_REAL_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +             \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
      (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
@@ -346,15 +360,18 @@ size_t sph_arena_bytes(const sph_config *cfg);
              SPH_WITH_SHIFTING ? SPH_DIM + 1u + SPH_DIM * (SPH_DIM + 1u) / 2u : 0u)
 #define SPH_SCRATCH_BYTES /* a thread */                                                                    \
     (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 86016u) +                                            \
-      SPH_TENSOR_SUMS_ * 512u) * (SPH_DOUBLE ? 2u : 1u))
+      (SPH_TENSOR_SUMS_ + (SPH_WITH_ENERGY ? 1u : 0u)) * 512u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SOLID_SCRATCH_BYTES /* with solids besides */                                                   \
     ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SHEAR_SCRATCH_BYTES /* with a viscous stress besides */                                          \
     ((SPH_DIM * SPH_DIM + 1u) * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_)
+#define SPH_ENERGY_SCRATCH_BYTES /* with the energy equation besides */                                     \
+    ((SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_ + 64u)
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      (((use)&SPH_USE_SHEAR) ? (size_t)(threads) * SPH_SHEAR_SCRATCH_BYTES : 0u) +                            \
+     (((use)&SPH_USE_ENERGY) ? (size_t)(threads) * SPH_ENERGY_SCRATCH_BYTES : 0u) +                          \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
          (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING)) ? 64u : 0u))
@@ -402,7 +419,8 @@ typedef struct sph_fluid {
     double mass;        /* of one particle, kg (per m of depth in 2-D, per m^2 in 1-D); 0: rho0 spacing^DIM */
     double rho0;        /* 0: that of the configuration */
     double sound_speed; /* 0: that of the configuration */
-    bool own_eos;       /* take the next field instead of the configuration's eos: a gas beside rock (SPH_WITH_SOLID) */
+    bool own_eos;       /* take the next field instead of the configuration's eos: a gas beside rock or water
+                           (SPH_WITH_SOLID, SPH_WITH_ENERGY) */
     uint32_t eos;
 } sph_fluid;
 #define sph_add_fluid SPH_NAME(add_fluid)
@@ -540,6 +558,13 @@ sph_status sph_add_shape(sph_sim *sim, uint32_t set, const sph_shape *shape);
 typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho);
 #define sph_apply_field SPH_NAME(apply_field)
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx);
+
+/* Sets the energy u (J/kg, >= 0) of a set's particles likewise (option `energy`). All or nothing. */
+#if SPH_WITH_ENERGY
+typedef void (*sph_energy_fn)(void *ctx, const double *x, double *u);
+#define sph_apply_energy SPH_NAME(apply_energy)
+sph_status sph_apply_energy(sph_sim *sim, uint32_t set, sph_energy_fn fn, void *ctx);
+#endif
 
 /* Gives every particle of the set the density that hydrostatic pressure asks for below `surface` (m, along the
    axis of gravity, which must be an axis), so that a tank starts in balance. Refused where a density would pass 100
@@ -685,6 +710,7 @@ typedef struct sph_particle {
     double stress[6];                         /* Pa: xx, yy, zz, xy, xz, yz, tension positive, after damage; a fluid's
                                                  is -p I; 0 where SPH_WITH_SOLID is off */
     double plastic, damage;                   /* equivalent plastic strain; D, 0 .. 1 */
+    double energy;                            /* u of the energy equation, J/kg; 0 where that is off */
 } sph_particle;
 #define sph_count SPH_NAME(count)
 uint32_t sph_count(const sph_sim *sim); /* particles in the simulation, walls included */
@@ -712,6 +738,7 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
      balance = kinetic + potential + internal + elastic + plastic_work - wall_work - body_work + dissipated + diffused
              + in_walls + in_bonds + unbalanced + absorbed + shifted + carried_off + released + put_back_loss
              + filtered + damped
+   (with the energy equation without dissipated, which is in the internal energy)
    stays (plastic_work to first order in dt; gravity changed by sph_reconfigure shifts the potential). Without books it
    is what can be summed without them. `unbalanced` is 0 but for DIRECT, the printed continuity forms, WEAK schemes with
    summed density, MIRROR_NO_SLIP, xsph_strain, the drift of XSPH in gravity, and solids, whose Jaumann rate stores
@@ -728,7 +755,7 @@ typedef struct sph_totals {
     double angular[3];           /* kg m^2/s about the origin; in 2-D only [2], in 1-D none */
     double kinetic;              /* J */
     double potential;            /* J, in gravity, from height 0 */
-    double internal;             /* J, compression from rho0 */
+    double internal;             /* J, compression from rho0; with the energy equation heat too, of a gas all of u */
     double elastic;              /* J, S:S/(4 mu): distortion of solids */
     double plastic_work;         /* J, by yielding since init */
     double wall_work;            /* J, done by moving walls and held sets since init (books) */
@@ -831,7 +858,8 @@ typedef bool (*sph_source)(void *ctx, void *bytes, size_t n); /* must fill n byt
 #define SPH_DUMP_ACCELERATION 8u
 #define SPH_DUMP_STRESS 16u /* deviatoric; this and the next where the scene has them */
 #define SPH_DUMP_DAMAGE 32u /* plastic strain, D^(1/DIM) */
-#define SPH_DUMP_PICTURE 55u /* position, set, id always */
+#define SPH_DUMP_ENERGY 64u /* u */
+#define SPH_DUMP_PICTURE 119u /* position, set, id always */
 #define SPH_DUMP_FULL 0x80000000u
 #define sph_dump SPH_NAME(dump)
 sph_status sph_dump(const sph_sim *sim, uint32_t fields, sph_sink sink, void *ctx);

@@ -63,13 +63,16 @@ double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double
     return damage;
 }
 
-/* J/kg: the integral of the pressure that acts over 1/rho; in tension damage takes its share of both */
+/* J/kg: the integral of the pressure that acts over 1/rho, of which in tension damage takes its share, and heat; of a
+   gas its energy */
 static double internal_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 {
     const sph_set *s = &sim->set[b->set[0][i]];
-    const double d = (double)b->rho[0][i];
+    const double d = (double)b->rho[0][i], heat = sph_has_energy(&sim->cfg) ? (double)b->energy[0][i] : 0;
+    if (sph_is_gas(s))
+        return heat;
     const double e = sph_eos_energy(s->eos, (double)s->b_r, s->rho0, d, sph_has_floor(sim, s));
-    return sph_pressure(sim, s, d) < 0 ? e * (1 - damage_of(b, i)) : e;
+    return (sph_pressure(sim, s, d) < 0 ? e * (1 - damage_of(b, i)) : e) + heat;
 }
 
 /* (1 - D) S:S/(4 mu), J/m^3 */

@@ -20,6 +20,7 @@
     X(IN_WALLS, SPH_WITH_BOOKS && SPH_HAS_LAYERED_WALLS ? 1 : 0)                                                   \
     X(IN_BONDS, SPH_WITH_BOOKS && SPH_WITH_SOLID ? 1 : 0)                                                          \
     X(UNBALANCED, SPH_WITH_BOOKS ? 1 : 0)                                                                          \
+    X(HEAT, SPH_WITH_ENERGY ? 1 : 0)                                                                               \
     X(BOUNDARY, 1)                                                                                                 \
     X(GRADIENT, SPH_MAX_(SPH_WITH_SOLID ? SPH_NL : 0, SPH_WITH_SHIFTING ? SPH_SHIFT_ROWS : 0))
 /* without solids that room is for shifting (shift_sums.h) */
@@ -52,7 +53,8 @@ typedef struct sph_choice {
     uint8_t apart;             /* the factors are of one kind of pairs */
     uint8_t shifting;          /* the sums of shifting */
     uint8_t shear;             /* a viscous stress */
-    uint8_t spare[5];
+    uint8_t energy;            /* the energy equation */
+    uint8_t spare[4];
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 24, "sph_choice is compared as three words (forces.c)");
 SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }
@@ -95,12 +97,21 @@ typedef struct sph_near {
 } sph_near;
 
 /* The velocity along `push` at which a pair of bodies is asked what it does to the energy: relative, by half, because
-   each of the two asks (`relative`: v_ij . push); where the partner does not push back alike, the home's own. */
+   each of the two asks (`relative`: v_ij . push); where the partner does not push back alike, the home's own. Heat of
+   the energy equation is always half of the relative: never negative. */
 SPH_INLINE vreal sph_pair_share(const sph_choice *c, const sph_home *h, const sph_near *p, const vreal *push,
                                 vreal relative)
 {
     (void)p;
-    return c->loses ? sph_dot(push, h->v) : relative * (sph_real)0.5;
+    return c->loses && !(SPH_WITH_ENERGY && c->energy) ? sph_dot(push, h->v) : relative * (sph_real)0.5;
+}
+
+/* With the energy equation, the heat that viscosity makes in the home (energy.h): half of what it takes on the relative
+   velocity that it sees */
+SPH_INLINE vreal sph_pair_heat(const sph_choice *c, const sph_near *p)
+{
+    const vreal taken = SPH_IS(c->viscosity, MORRIS) ? p->fm * sph_dot(p->dw, p->dw) : p->visc * sph_dot(p->ex, p->dw);
+    return taken * (sph_real)-0.5;
 }
 
 SPH_INLINE sph_home sph_spread_home(const sph_home_tile *t, uint32_t h)

@@ -22,6 +22,7 @@ typedef struct tile_choice {
     bool press, middle;         /* whether pressures are; whether it is the middle of a step */
     bool wall, is_image;        /* velocities of a wall's group; seen through an image */
     bool drifts;                /* positions go with a velocity beside the own, too */
+    bool gas;                   /* p = b (1 + d) u */
 } tile_choice;
 
 /* In the middle of a step, at whose end the particles stand, they are seen half a step's way back. A pair that is
@@ -40,7 +41,7 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real leas
     const vreal m = v_set(r->set->mass_r), r0 = v_set(r->set->rho0_r), b = v_set(r->set->b_r);
     const vreal quantum = v_set((sph_real)sim->grid.quantum), lowest = v_set(least) * r0;
     const uint32_t at = t->n, s = r->first, n = r->n;
-    const sph_real *const excess = r->b->rho[0] + s;
+    const sph_real *const excess = r->b->rho[0] + s, *const energy = c.gas ? r->b->energy[0] + s : excess;
     const sph_pos *pos[SPH_DIM];
     const sph_real *vel[SPH_DIM];
     vint sign[SPH_DIM], shift[SPH_DIM];
@@ -70,7 +71,8 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real leas
                 v_store(t->v[k] + at + j, c.is_image ? v * flip[k] : v);
             }
             const vreal e = v_load(excess + j);
-            const vreal rho = (1 + e) * r0, p = c.press ? sph_pressure_of(c.eos, c.floor, b, e) : v_set(0);
+            const vreal rho = (1 + e) * r0, law = c.press ? sph_pressure_of(c.eos, c.floor, b, e) : v_set(0);
+            const vreal p = c.gas ? b * ((1 + e) * v_load(energy + j)) : law;
             v_store(t->m + at + j, m);
             v_store(t->rho + at + j, rho);
             v_store(t->press + at + j, c.ratio && c.press ? p / (rho * rho) : p);
@@ -79,8 +81,11 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real leas
         }
 }
 
-/* standard rates ask for no pressure */
-static bool needs_press(const sph_sim *sim) { return sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD); }
+/* standard rates ask for no pressure, but that of energy does */
+static bool needs_press(const sph_sim *sim)
+{
+    return sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD) || sph_has_energy(&sim->cfg);
+}
 
 /* whether what is seen half a step back went with XSPH's velocity too (motion.h) */
 SPH_INLINE bool drifts_beside(const sph_candidates *r, bool wall)
@@ -100,7 +105,8 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
                              sph_in_middle(r->sim),
                              SPH_HAS_LAYERED_WALLS && wall,
                              SPH_HAS_IMAGES && r->im->is_image,
-                             drifts_beside(r, wall)};
+                             drifts_beside(r, wall),
+                             sph_is_gas(r->set)};
     load_columns(r, t, least, COPIED, own);
 }
 
@@ -127,7 +133,7 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
 #define SPH_FAST_FN(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                           \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t, sph_real least)                               \
     {                                                                                                              \
-        const tile_choice own = {SPH_##eos_, true, floor_, inv_rho_, press_, !(press_), wall_, false, false};      \
+        const tile_choice own = {SPH_##eos_, true, floor_, inv_rho_, press_, !(press_), wall_, false, false, false}; \
         load_columns(r, t, least, copied, own);                                                                    \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
@@ -146,7 +152,7 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool ho
     /* of rates the equation of state does not matter */
     const uint32_t eos = press ? r->set->eos : SPH_TAIT;
     const bool usual = SPH_WITH_FAST_PATHS && (SPH_IS(c->scheme, STANDARD) || !press) && !r->im->is_image &&
-                       !drifts_beside(r, wall);
+                       !drifts_beside(r, wall) && !sph_has_energy(c);
     (void)copied;
 #define SPH_FAST_TRY(name, eos_, floor_, inv_rho_, press_, wall_, copied_)                                         \
     if (usual && eos == SPH_##eos_ && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) &&           \

@@ -37,8 +37,9 @@ SPH_INLINE void sph_inverse_distance(const sph_choice *c, const sph_factors *f, 
     p->inv = asked ? 1 / ((p->r2 + f->eta) * (h->rho + p->rho)) : p->r2;
 }
 
+/* sound: where energies go by their equation, h alpha (c_i + c_j) (energy.h) */
 SPH_INLINE void sph_viscosity(const sph_choice *c, const sph_factors *f, const sph_home *h, const sph_mirror_tile *m,
-                              sph_near *p, vreal *s)
+                              vreal sound, sph_near *p, vreal *s)
 {
     p->visc = p->fm = v_set(0);
     if (!sph_viscous(c->viscosity))
@@ -54,7 +55,7 @@ SPH_INLINE void sph_viscosity(const sph_choice *c, const sph_factors *f, const s
     if (SPH_IS(c->viscosity, MORRIS)) {
         p->fm = p->mg * p->r2 * (f->morris / ((p->r2 + f->eta_morris) * (h->rho + p->rho)));
     } else {
-        vreal strength = v_set(f->av_alpha);
+        vreal strength = SPH_WITH_ENERGY && c->energy ? sound : v_set(f->av_alpha);
         if (c->beta)
             strength = strength + f->av_beta * ((h->rho + p->rho) * v_abs(mu));
         p->visc = mu * strength * p->mg;

@@ -34,7 +34,8 @@ bool o_loses(const o_scene *s)
 
 double o_diffused_per_rate(const o_scene *s, const o_particle *p)
 {
-    (void)s;
+    if (o_is_gas(s, p))
+        return 0;
     const double acts = p->p < 0 ? (1 - pow(p->root, SPH_DIM)) * p->p : p->p;
     return -o_phi(p) * acts / (p->rho * p->rho);
 }
@@ -49,6 +50,7 @@ static void rise_of(const o_scene *s, const o_particle *p, o_sum *o)
         o_add(o, m * p->a[k].v * p->v[k], m * p->a[k].s * fabs(p->v[k]));
         o_add(o, -m * g * (p->v[k] + drift), m * fabs(g) * (fabs(p->v[k]) + fabs(drift)));
     }
+    o_add(o, m * p->warmed.v, m * p->warmed.s);
     const o_sum rate = s->cfg.density == SPH_SUMMATION ? p->moved_rate : p->rate;
     o_add(o, m * per * rate.v, m * fabs(per) * rate.s);
     if (s->cfg.density == SPH_SUMMATION)
@@ -84,6 +86,7 @@ o_totals o_find_totals(const o_scene *s)
             stored *= 1 - pow(p->root, SPH_DIM);
         stored *= o_phi(p);
         o_add(&o.internal, m * stored, m * set->c0 * set->c0 * (fabs(p->d) + fabs(stored) / (set->c0 * set->c0)));
+        o_plus(&o.internal, m * p->u);
         if (o_is_solid(s, p))
             solid_totals(s, p, &o);
         const double per = o_diffused_per_rate(s, p);

@@ -78,6 +78,8 @@ static void compare_body(const o_scene *s, const o_particle *p, const seen *k)
     }
     for (uint32_t c = 0; s->cfg.books && c < 4; c++)
         check(power[c], p->id, 0, k->power[c], sums[c], 0);
+    if (s->cfg.energy)
+        check("energy rate", p->id, 0, k->warmed, p->warmed, 0);
     if (s->cfg.density == SPH_SUMMATION)
         check("summed density", p->id, 0, k->d, p->density, 0);
     for (uint32_t c = 0; s->cfg.shifting > 0 && c < SPH_DIM; c++)
@@ -197,7 +199,7 @@ static void compare_totals(const sph_sim *sim, const o_scene *s)
         static const int sign[] = {-1, 1, -1, 1, -1, -1, -1};
         /* of a body that all moves as it is told, inner forces cancel in the walls' power */
         double sum = 0, size = o.dissipated.s + o.worked.s + o.diffused.s + o.pushed.s;
-        for (uint32_t k = 0; k < 7; k++) {
+        for (uint32_t k = s->cfg.energy ? 1 : 0; k < 7; k++) { /* heat stays */
             sum += sign[k] * look_power(sim, k);
             size += fabs(look_power(sim, k));
         }
@@ -359,6 +361,8 @@ static void compare_trajectories(const sph_sim *sim, const o_scene *s)
             if (body)
                 check("velocity after steps", p->id, c, k->v[c], near(p->v[c], set->c0 + fabs(p->v[c])), 0);
         }
+        if (body && s->cfg.energy)
+            check("energy after steps", p->id, 0, k->u, near(p->u, set->c0 * set->c0 + fabs(p->u)), 0);
         if (body || set->compressible)
             check("density after steps", p->id, 0, k->d, near(p->d, 1), 0);
         if (!o_is_solid(s, p))

@@ -17,7 +17,7 @@ void o_push(const o_scene *s, o_particle *i, const o_particle *j, const double *
 static void begin(const o_scene *s, o_particle *i)
 {
     const o_sum none = {0, 0};
-    i->rate = i->viscous = i->worked = i->diffused = i->pushed = none;
+    i->rate = i->warmed = i->viscous = i->worked = i->diffused = i->pushed = none;
     i->mu = 0;
     for (int k = 0; k < 3; k++) {
         i->a[k] = none;
@@ -71,6 +71,7 @@ static void end(const o_scene *s, o_particle *i)
     double own[SPH_DIM] = {0};
     if (o_has_solids(s))
         o_strain_rates(s, i);
+    o_warm(s, i);
     if (s->cfg.density == SPH_SUMMATION)
         i->rate = (o_sum){0, 0};
     o_add(&i->rate, i->diffused.v, i->diffused.s);

@@ -55,6 +55,11 @@ o_limits o_find_limits(const o_scene *s)
         if (!o_is_body(s, p))
             continue;
         mu = o_max(mu, p->mu);
+        if (o_is_gas(s, p)) {
+            const double told = o_max(p->mu, c->shear != SPH_NO_SHEAR ? p->eddy : 0) + o_sound_as_mu(s, p);
+            mu = o_max(mu, told);
+            l.courant_scale = 1 + 4 * p->c / (sound + c->smoothing_length * mu);
+        }
         if (c->shear != SPH_NO_SHEAR && p->eddy > mu) {
             mu = p->eddy;
             l.courant_scale = p->eddy_scale;

@@ -69,6 +69,10 @@ static sph_status add_points(sph_sim *sim, const plan *p, const uint32_t *set)
         const double rho0 = sim->set[set[q->set]].rho0;
         uint32_t id = 0;
         st = sph_add_particle(sim, set[q->set], q->x, q->v, rho0 * (1 + q->d), &id);
+        if (!st && b->energy[0])
+            b->energy[0][id] = (sph_real)(sim->set[set[q->set]].eos == SPH_IDEAL_GAS
+                                              ? q->warm * (double)b->energy[0][id]
+                                              : q->warm * 1e-3 * p->cfg.sound_speed * p->cfg.sound_speed);
         if (st || q->set < p->fluids)
             continue;
         for (int k = 0; k < SPH_NS; k++)
@@ -212,6 +216,7 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
         o->id = b->id[0][i];
         o->set = b->set[0][i];
         o->d = (double)b->rho[0][i];
+        o->u = b->energy[0] ? (double)b->energy[0][i] : 0;
         o->plastic = b->plastic[0] ? (double)b->plastic[0][i] : 0;
         o->root = b->damage[0] && set->role == SPH_ROLE_SOLID ? (double)b->damage[0][i] : 0;
         o->phi.v = o->phi.s = b->quadrature[0] ? (double)b->quadrature[0][i] : 0;
@@ -245,6 +250,8 @@ uint32_t look_results(const sph_sim *sim, seen *to, uint32_t room)
         o->rate = (double)b->drho[0][i];
         o->plastic = b->plastic[0] ? (double)b->plastic[0][i] : 0;
         o->root = b->damage[0] ? (double)b->damage[0][i] : 0;
+        o->u = b->energy[0] ? (double)b->energy[0][i] : 0;
+        o->warmed = b->denergy[0] ? (double)b->denergy[0][i] : 0;
         o->phi = b->quadrature[0] ? (double)b->quadrature[0][i] : 0;
         for (int k = 0; k < SPH_DIM; k++) {
             o->x[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;

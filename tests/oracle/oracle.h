@@ -56,6 +56,7 @@ typedef struct o_particle {
     double rest[3];            /* reference position (m) */
     double home[3];            /* of what moves as it is told: its place at displacement 0 */
     double dev[3][3];          /* deviatoric stress, Pa, without damage */
+    double u;                  /* energy, J/kg */
     double plastic, root;      /* equivalent plastic strain, D^(1/SPH_DIM) */
     /* what follows from the state alone */
     double rho, p, c;          /* kg/m^3, Pa (after the floor), c0 of its set */
@@ -84,6 +85,7 @@ typedef struct o_particle {
     o_sum moved_rate;          /* of summed density: how fast the sum changes as places move */
     o_sum unseen_rate;         /* the part of it by which places move otherwise than pairs see: in no power (sph.h) */
     o_sum diffused;            /* d(rho)/dt by diffusion */
+    o_sum warmed;              /* du/dt, W/kg */
     o_sum viscous, worked, pushed; /* powers for the books, W/kg */
     o_sum gradient[3][3];      /* sum m_j v_ij (x) K g (weak: m_j/rho_j), of which L is made */
     o_sum disorder[3], filling; /* shifting: minus the slope of disorder (1/m), cover less 1; 0 where it acts not */
@@ -177,6 +179,10 @@ void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p
 bool o_sheared_velocity(const o_scene *s, const o_particle *i, const o_particle *j, const o_pair *p, double *v);
 void o_make_shear(o_scene *s);                                                            /* shear.c */
 void o_shear_force(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
+bool o_is_gas(const o_scene *s, const o_particle *p);                                      /* energy.c */
+void o_gas_state(const o_scene *s, o_particle *p);
+void o_warm(const o_scene *s, o_particle *i);
+double o_sound_as_mu(const o_scene *s, const o_particle *p);
 void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);   /* diffusion.c */
 void o_boundary(o_scene *s, o_particle *i, const o_particle *j);                           /* boundary.c */
 void o_stresses(o_scene *s);                                                               /* stress.c */

@@ -87,7 +87,7 @@ static void draw_choices(plan *p)
     c->rho0 = pow(10, range(0, 4));
     c->sound_speed = range(5, 100);
     c->scheme = pick(SPH_SCHEMES);
-    c->eos = pick(SPH_EOSES);
+    c->eos = pick(SPH_IDEAL_GAS); /* a gas: draw_energy */
     c->pressure_floor = chance(0.4);
     c->viscosity = pick(SPH_VISCOSITIES);
     c->alpha = range(0, 0.5);
@@ -146,7 +146,7 @@ static void draw_sets(plan *p)
         f->sound_speed = chance(0.5) ? c->sound_speed * range(0.3, 2) : 0;
         f->mass = chance(0.3) ? c->rho0 * cell * range(0.2, 2) : 0;
         f->own_eos = chance(0.5);
-        f->eos = pick(SPH_EOSES);
+        f->eos = pick(SPH_IDEAL_GAS);
     }
     for (uint32_t k = 0; k < p->solids; k++) {
         sph_solid *m = &p->solid[k];
@@ -344,6 +344,28 @@ static void draw_tables(plan *p)
     }
 }
 
+/* the energy equation, of gases and others */
+static void draw_energy(plan *p)
+{
+    sph_config *c = &p->cfg;
+    c->energy = c->solid == SPH_NO_SOLID && chance(0.35);
+    c->gamma = range(1.1, 3);
+    const bool alone = c->density == SPH_SUMMATION || c->gradient == SPH_RENORMALISED;
+    if (!c->energy)
+        return;
+    if (alone || chance(0.6))
+        c->eos = SPH_IDEAL_GAS;
+    if (c->density == SPH_SUMMATION && (c->integrator == SPH_KICK_DRIFT_KICK || c->integrator == SPH_LEAP_FROG))
+        c->integrator = chance(0.5) ? SPH_PREDICTOR_CORRECTOR : SPH_RUNGE_KUTTA;
+    for (uint32_t k = 0; k < p->fluids; k++)
+        if (alone || chance(0.3))
+            p->fluid[k].eos = SPH_IDEAL_GAS;
+    for (uint32_t k = 0; k < p->walls && c->eos == SPH_IDEAL_GAS; k++)
+        p->wall[k].wall.kind = pick(SPH_WALL_GHOST);
+    for (uint32_t i = 0; i < p->points; i++)
+        p->point[i].warm = range(0.3, 2);
+}
+
 void plan_draw(plan *p, uint64_t seed)
 {
     memset(p, 0, sizeof *p);
@@ -376,6 +398,7 @@ void plan_draw(plan *p, uint64_t seed)
     for (uint32_t k = 0; k < p->solids; k++)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
     draw_tables(p);
+    draw_energy(p);
 }
 
 void plan_print(const plan *p)
@@ -388,7 +411,7 @@ void plan_print(const plan *p)
         {"no diffusion", "molteni", "hydrostatic"},
         {"plain", "bonet_lok", "renormalised"},
         {"no solid", "updated", "corrected", "total"},
-        {"tait", "tait_gray", "linear", "isothermal"},
+        {"tait", "tait_gray", "linear", "isothermal", "ideal_gas"},
         {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"}};
     const sph_config *c = &p->cfg;
     printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, "
@@ -397,7 +420,8 @@ void plan_print(const plan *p)
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
            c->integrator, p->steps);
-    printf("  shear %u, cs %g, ci %g, filter %u\n", c->shear, c->smagorinsky, c->subgrid, c->filter);
+    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g\n", c->shear, c->smagorinsky, c->subgrid, c->filter,
+           c->energy, c->gamma);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,

@@ -14,6 +14,7 @@ enum { PLAN_POINTS = 64, PLAN_SETS = 3, PLAN_WALLS = 2, PLAN_PROBES = 6, PLAN_RO
 typedef struct plan_point {
     uint32_t set; /* 0 .. fluids - 1, then the solids */
     double x[3], v[3], d;
+    double warm;           /* of a gas: u as a share of that which its set begins with */
     double dev[5], plastic, root, moved[3]; /* of solids: stress, yield, damage, way from the reference position */
 } plan_point;
 
@@ -59,7 +60,7 @@ void plan_print(const plan *p);
 typedef struct seen {
     bool there;
     double x[3], v[3], a[3], d, rate, drift[3];
-    double dev[5], dev_rate[5], plastic, root, phi;
+    double dev[5], dev_rate[5], plastic, root, phi, u, warmed;
     double disorder[4]; /* of shifting: minus the slope, then what the cover is above 1 */
     double power[8]; /* W/kg, in the order of the books */
 } seen;

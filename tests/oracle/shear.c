@@ -104,6 +104,14 @@ void o_shear_force(o_scene *s, o_particle *i, const o_particle *j, const o_pair 
             a[k] += c * (i->shear[k][l] + (wall ? i->shear[k][l] : j->shear[k][l])) * p->x[l] * p->g;
     const double scale = c * (i->shear_scale + (wall ? i->shear_scale : j->shear_scale)) * p->slope;
     o_push(s, i, j, a, scale);
+    if (s->cfg.energy && !wall) { /* tau : L of each */
+        double own[3] = {0};
+        for (int k = 0; k < SPH_DIM; k++)
+            for (int l = 0; l < SPH_DIM; l++)
+                own[k] += c * i->shear[k][l] * p->x[l] * p->g;
+        o_add(&i->viscous, -o_dot(own, p->v), c * i->shear_scale * p->slope * sqrt(o_dot(p->v, p->v)));
+        return;
+    }
     for (int k = 0; k < 3; k++)
         at[k] = wall ? 0.5 * seen[k] : o_loses(s) ? i->v[k] : 0.5 * p->v[k];
     o_add(&i->viscous, -o_dot(a, at), scale * sqrt(o_dot(at, at)));

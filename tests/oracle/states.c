@@ -20,12 +20,16 @@ double o_pressure(uint32_t eos, double rho0, double c0, double d)
         return c0 * c0 * rho0 * d;
     if (eos == SPH_ISOTHERMAL)
         return c0 * c0 * rho0 * (1 + d);
+    if (eos == SPH_IDEAL_GAS)
+        return 0; /* energy.c */
     return tait_scale(eos, rho0, c0) * expm1(7 * log1p(d));
 }
 
 double o_energy(uint32_t eos, double rho0, double c0, double d, bool floor)
 {
     const double s = 1 + d;
+    if (eos == SPH_IDEAL_GAS)
+        return 0;
     if (floor && d < 0 && eos != SPH_ISOTHERMAL)
         return 0;
     if (eos == SPH_LINEAR)
@@ -57,6 +61,8 @@ static void refresh(const o_scene *s, o_particle *p)
     if (s->cfg.pressure_floor && !solid)
         p->p = o_max(p->p, 0);
     p->c = set->c0;
+    if (o_is_gas(s, p))
+        o_gas_state(s, p);
     const double acts = p->p < 0 ? (1 - damage) * p->p : p->p;
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)

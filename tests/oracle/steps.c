@@ -10,7 +10,7 @@
                           (Powell 2012 eq 1.40)
      Runge-Kutta          forces at t; all of it half a step on; forces there; x' = x + dt (v_h + u_h), and v, rho by a
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
-   Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
+   Energies and stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
    where its motion says at each of these times. Damage grows with them, by what the strain was at the step's beginning.
    At the end of a step sponges take, then shifting. Faces: periodic ones let in on the other side; a plane of symmetry
    takes the mirrored particle instead, with all that it has: place, reference position, velocity, stress, and their
@@ -25,6 +25,7 @@
 typedef struct beginning {
     double x[3], v[3], d, rest[3], dev[3][3], plastic;
     double a[3], u[3], rate, dev_rate[3][3]; /* rate: of the excess d, 1/s */
+    double u_state, u_rate;
     double rise;
     double root[2]; /* damage half a step and a step later */
     bool turned[3], mirrored[3]; /* by a mirror since: vectors; tensors too */
@@ -49,6 +50,7 @@ static void remember_rates(const o_scene *s)
         const o_particle *p = &s->own[i];
         beginning *b = &was[i];
         b->rate = evolves(s, p) ? p->rate.v / s->set[p->set].rho0 : 0;
+        b->u_rate = p->warmed.v;
         for (int k = 0; k < 3; k++) {
             b->a[k] = p->a[k].v;
             b->u[k] = s->cfg.xsph > 0 ? p->drift[k].v : 0;
@@ -69,6 +71,7 @@ static void remember_state(const o_scene *s)
         memset(b->turned, 0, sizeof b->turned);
         memset(b->mirrored, 0, sizeof b->mirrored);
         b->d = p->d;
+        b->u_state = p->u;
         b->plastic = p->plastic;
     }
 }
@@ -251,6 +254,7 @@ static void go(o_scene *s, double drift, double bend, double kick, double rate)
             }
         if (evolves(s, p))
             p->d = b->d + rate * b->rate;
+        p->u = b->u_state + rate * b->u_rate;
         p->root = b->root[s->cfg.integrator == SPH_PREDICTOR_CORRECTOR];
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3; l++)
@@ -275,6 +279,7 @@ static void go_whole(o_scene *s, double dt)
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         p->root = was[i].root[1];
+        p->u = was[i].u_state + dt * p->warmed.v;
         if (evolves(s, p))
             p->d = was[i].d + dt * p->rate.v / s->set[p->set].rho0;
         for (int k = 0; k < 3; k++)
@@ -316,6 +321,7 @@ static void predict_correct(o_scene *s, uint32_t number, double dt)
         for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
             if (!is_held(s, p, k))
                 p->v[k] = s->cfg.damping * (p->v[k] + half(dt) * (p->a[k].v - turned(b, k, b->a[k])));
+        p->u += half(dt) * (p->warmed.v - b->u_rate);
         if (evolves(s, p)) {
             const double rise = p->rate.v / s->set[p->set].rho0 - b->rate;
             p->d += half(dt) * rise - (foresees ? foresight * b->rise : 0);
@@ -348,6 +354,7 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         beginning *b = &was[i];
+        b->u_rate = p->warmed.v;
         b->rise = evolves(s, p) ? p->rate.v / s->set[p->set].rho0 : 0; /* what the next step begins with */
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3; l++)

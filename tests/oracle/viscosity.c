@@ -6,7 +6,7 @@
                   eta only keeps it finite: 1e-6 h^2 (with 0.01 h^2 it would be some per cent too weak)
    Walls: with free slip none. GHOST: v_ij times beta = min(1.5, 1 + depth/distance), depth and distance of ghost and
    body from the wall's face (Gray 2.42, 2.43). ADAMI: v_i - v_w with the extrapolated v_w.
-   It takes energy by its work on the relative velocity. */
+   It takes energy by its work on the relative velocity; with the energy equation half of that on the velocity seen. */
 #include "oracle.h"
 
 #define MORRIS_SOFTENING 1e-6
@@ -69,6 +69,6 @@ void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p
        pushed back alike */
     double at[3];
     for (int b = 0; b < 3; b++)
-        at[b] = o_is_ghost(s, j) ? p->v[b] : o_loses(s) ? i->v[b] : 0.5 * p->v[b];
+        at[b] = s->cfg.energy ? 0.5 * v[b] : o_is_ghost(s, j) ? p->v[b] : o_loses(s) ? i->v[b] : 0.5 * p->v[b];
     o_add(&i->viscous, -o_dot(a, at), scale * sqrt(o_dot(at, at)));
 }
