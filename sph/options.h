@@ -64,7 +64,7 @@
       "c0; at least ten times the largest speed keeps density within 1 %")                                            \
     P(A, scheme, CHOICE, SPH_STANDARD, 0, SPH_SCHEMES, SPH_SCHEMES_IN, "one of SPH_STANDARD .. SPH_WEAK_WICK", FIXED, \
       "-", "momentum equation: standard weak direct standard_wick weak_wick",                                         \
-      "scheme", "-", 0, SPH_SCHEMES - 1, USUAL)                                                                       \
+      "scheme", "-", 0, SPH_SCHEMES - 1, OWN)                                                                       \
     P(A, density, CHOICE, SPH_CONTINUITY, 0, SPH_DENSITIES, SPH_DENSITIES_IN, "SPH_CONTINUITY or SPH_SUMMATION",      \
       FIXED, "-", "density: continuity summation", "density", "-", 0, SPH_DENSITIES - 1, USUAL)                       \
     P(A, eos, CHOICE, SPH_TAIT, 0, SPH_EOSES, SPH_EOSES_IN, "one of SPH_TAIT .. SPH_IDEAL_GAS", FIXED, "-",           \

@@ -23,6 +23,7 @@ typedef struct bits_case {
     bool shifting;
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
+    bool energy;
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -148,6 +149,26 @@ static const bits_case bits_cases[] = {
     {"large_eddies_no_slip", CASE_BASE, .shear = SPH_SMAGORINSKY_WICK, .face = SPH_MIRROR_NO_SLIP, .books = true},
     {"large_eddies_periodic", CASE_BASE, .shear = SPH_SMAGORINSKY, .face = SPH_PERIODIC,
      .integrator = SPH_LEAP_FROG},
+    /* energy equation */
+#define CASE_GAS .wall = CASE_NO_WALL, .eos = SPH_IDEAL_GAS, .energy = true
+    {"gas", CASE_GAS, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL_APPROACHING, .face = SPH_SYMMETRY,
+     .books = true},
+    {"gas_weak", CASE_GAS, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .scheme = SPH_WEAK, .face = SPH_PERIODIC,
+     .integrator = SPH_KICK_DRIFT_KICK, .gradient = SPH_RENORMALISED},
+    {"gas_direct", CASE_GAS, .kernel = SPH_QUINTIC, .viscosity = SPH_MORRIS, .scheme = SPH_DIRECT, .books = true,
+     .face = SPH_MIRROR_NO_SLIP},
+    {"gas_summation", CASE_GAS, .kernel = SPH_WENDLAND_C4, .viscosity = SPH_ARTIFICIAL, .density = SPH_SUMMATION,
+     .face = SPH_SYMMETRY, .integrator = SPH_RUNGE_KUTTA},
+    {"gas_wick", CASE_GAS, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .scheme = SPH_STANDARD_WICK,
+     .integrator = SPH_LEAP_FROG, .face = SPH_PERIODIC, .books = true},
+    {"gas_weak_wick", CASE_GAS, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .scheme = SPH_WEAK_WICK,
+     .face = SPH_SYMMETRY},
+    {"gas_in_water", CASE_BASE, .scheme = SPH_WEAK, .energy = true, .beside = true, .books = true,
+     .diffusion = SPH_MOLTENI, .integrator = SPH_KICK_DRIFT_KICK},
+    {"heat_of_eddies", CASE_BASE, .energy = true, .shear = SPH_SMAGORINSKY, .slip_less = true, .books = true,
+     .integrator = SPH_KICK_DRIFT_KICK},
+    {"heat_of_morris", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .slip_less = true,
+     .compressible = true, .energy = true, .gradient = SPH_BONET_LOK},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -202,6 +223,7 @@ static sph_config case_config(const bits_case *b)
     c.gradient = b->gradient;
     c.shear = b->shear;
     c.integrator = b->integrator;
+    c.energy = b->energy;
     c.xsph = b->xsph ? 0.5 : 0;
     c.shepard_every = b->shepard ? 3 : 0;
     c.filter = b->filter;
@@ -328,6 +350,11 @@ static sph_status case_build(sph_sim *sim, const bits_case *b)
     else
 #endif
         st = sph_add_fluid(sim, NULL, &set);
+#if SPH_WITH_ENERGY && SPH_WITH_SEVERAL_FLUIDS
+    const sph_fluid gas = {.rho0 = 500, .sound_speed = 2, .own_eos = true, .eos = SPH_IDEAL_GAS};
+    if (!st && !b->solid && b->beside)
+        st = sph_add_fluid(sim, &gas, &other);
+#endif
     if (!st)
         st = case_water(sim, set, other, other < SPH_MAX_SETS ? 4 : 0);
     if (!st && other < SPH_MAX_SETS)

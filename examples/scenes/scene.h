@@ -91,6 +91,10 @@ enum {
 #define SCENE_OWN_delta(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, floor_, delta_, ...) delta_
 #define SCENE_OWN_shifting(k, h, e, v, a, d, damping_, books_, integrator_, cfl_, floor_, delta_, shifting_) shifting_
 #define SCENE_OWN_on_cross(...) SPH_PUT_BACK
+#ifndef SCENE_SCHEME /* a scene may want another */
+#define SCENE_SCHEME SPH_STANDARD
+#endif
+#define SCENE_OWN_scheme(...) SCENE_SCHEME
 #define SCENE_KIND_WHOLE SCENE_WHOLE
 #define SCENE_KIND_CHOICE SCENE_CHOICE
 #define SCENE_KIND_BOOL SCENE_CHOICE

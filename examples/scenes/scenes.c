@@ -4,7 +4,7 @@
 
 /* the one table of scenes: a line here and a file of that name */
 #if SPH_DIM == 1
-#define SCENE_LIST(X) X(hydrostatic)
+#define SCENE_LIST(X) X(hydrostatic) X(sod)
 #elif SPH_DIM == 2
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break)                                                                                            \
@@ -12,6 +12,7 @@
     X(sloshing)                                                                                             \
     X(still_tank)                                                                                           \
     X(standing_wave)                                                                                        \
+    X(shock_tube)                                                                                           \
     X(taylor_green)                                                                                         \
     X(channel)                                                                                              \
     X(elliptical_drop)                                                                                      \
