@@ -11,7 +11,7 @@
 enum { N = SCENE_COMMON, ACROSS, RHO_LEFT, RHO_RIGHT, E_LEFT, E_RIGHT, DURATION, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2.5, SPH_IDEAL_GAS, SPH_ARTIFICIAL_APPROACHING, 1, SPH_NO_DIFFUSION, SCENE_ADAMI,
+    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_IDEAL_GAS, SPH_ARTIFICIAL_APPROACHING, 1.5, SPH_NO_DIFFUSION, SCENE_ADAMI,
                     1, 0, 1, SPH_KICK_DRIFT_KICK, 0.3, 0),
     {"n", "-", "particles along the tube", 200, 20, 100000, SCENE_WHOLE},
     {"across", "-", "rows of particles across (2-D); 0: as many as along", 24, 0, 100000, SCENE_WHOLE},
