@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* energy.c: the energy equation (energy.h): sound speeds as a column, the rate of a particle from its sums, and what the
-   step's limits are to know of sound.
+/* energy.c: the energy equation (energy.h): sound speeds as a column, the rate of a particle from its sums, and what
+   the step's limits are to know of sound.
 
-   The limits are made of the sound of sets (timestep.c): that of a gas particle is told as an |mu|, by which the Courant
-   limit cfl h/(c0 + h mu) is the one of c_i + h mu_i; and where viscosity would ask for less, viscous_factor h^2/nu with
-   nu = alpha c_i h/(2 (DIM + 2)), that one. Where a gas is colder than its set began the step is shorter than it need.
+   The limits are made of the sound of sets (timestep.c): that of a gas particle is told as an |mu|, by which the
+   Courant limit cfl h/(c0 + h mu) is the one of c_i + h mu_i; and where viscosity would ask for less, viscous_factor
+   h^2/nu with nu = alpha c_i h/(2 (DIM + 2)), that one. Where a gas is colder than its set began the step is shorter
+   than it need.
 
    Fields: u and its rate, 2 reals a particle in each buffer. Cost: a column and a sum in the force loop. */
 #include "energy.h"

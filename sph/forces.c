@@ -491,7 +491,8 @@ static uint8_t kept_apart(const sph_sim *sim)
 {
     const sph_config *c = &sim->cfg;
     const bool artificial = sph_viscous(c->viscosity) && !SPH_IS(c->viscosity, MORRIS);
-    const bool asks = (sph_diffusive(c->diffusion) && sim->mixed) || (artificial && sim->own_sound && !sph_has_energy(c));
+    const bool sounds = artificial && sim->own_sound && !sph_has_energy(c);
+    const bool asks = (sph_diffusive(c->diffusion) && sim->mixed) || sounds;
     uint8_t apart = SPH_WITH_SEVERAL_FLUIDS && asks ? SPH_APART_KIN : 0;
     for (uint32_t k = 0; k < SPH_DIM && SPH_HAS_MIRRORS && SPH_IS(c->diffusion, HYDROSTATIC); k++)
         for (uint32_t side = 0; side < 2; side++) {

@@ -323,7 +323,8 @@ sph_real sph_whole_of(const sph_buffer *b, uint32_t i);
 #define sph_quadrature_of SPH_NAME(quadrature_of_)
 sph_real sph_quadrature_of(const sph_buffer *b, uint32_t i);
 /* The energy that a particle of a buffer holds (J): of motion; in gravity, from height 0; of compression by the
-   pressure that acts, and its heat (energy.h); of distortion, (1 - D) S:S/(4 mu) on its volume at rest; and what its yielding took. */
+   pressure that acts, and its heat (energy.h); of distortion, (1 - D) S:S/(4 mu) on its volume at rest; and what its
+   yielding took. */
 typedef struct sph_energy {
     double kinetic, potential, internal, elastic, plastic;
 } sph_energy;

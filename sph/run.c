@@ -101,7 +101,8 @@ static const char *const faces[] = {"x beyond the low face (m)", "x beyond the h
                                     "z beyond the low face (m)", "z beyond the high face (m)",
 #endif
 };
-_Static_assert(SPH_BOND_TOO_LONG + SPH_WITH_ENERGY - SPH_NOT_FINITE + 1 == sizeof quantities / sizeof *quantities, "one a status");
+_Static_assert(SPH_BOND_TOO_LONG + SPH_WITH_ENERGY - SPH_NOT_FINITE + 1 == sizeof quantities / sizeof *quantities,
+               "one a status");
 
 static sph_status report_fail(sph_sim *sim, const sph_fail *f)
 {

@@ -31,8 +31,8 @@ SPH_INLINE sph_shear_home sph_spread_shear(const sph_sim *sim, const sph_thread 
     return o;
 }
 
-/* what becomes heat in the home: its own stress times its part of the velocity gradient, so that all together is tau : L;
-   beside walls half of the work, by which the stress is the same on both sides */
+/* what becomes heat in the home: its own stress times its part of the velocity gradient, so that all together is
+   tau : L; beside walls half of the work, by which the stress is the same on both sides */
 SPH_INLINE vreal sph_shear_heat(const sph_home *h, const sph_mirror_tile *m, sph_near *p, const vreal *push,
                                 const vreal *own)
 {
@@ -42,7 +42,8 @@ SPH_INLINE vreal sph_shear_heat(const sph_home *h, const sph_mirror_tile *m, sph
     return sph_dot(push, p->dw) * (sph_real)0.5;
 }
 
-/* the books; own: the home's part of push; push: what the pair adds to the sum of accelerations (a = -slope times that sum) */
+/* the books; push: what the pair adds to the sum of accelerations (a = -slope times that sum); own: the home's part of
+   it */
 SPH_INLINE void sph_shear_power(const sph_choice *c, const sph_home *h, const sph_mirror_tile *m, sph_near *p,
                                 const vreal *push, const vreal *own, vreal *s)
 {

@@ -130,14 +130,14 @@ enum { SPH_CONTINUITY, SPH_SUMMATION, SPH_DENSITIES };
 enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_IDEAL_GAS, SPH_EOSES };
 
 /* The energy equation (option `energy`, scenes without solids; SPH_USE_ENERGY): each particle has an energy u (J/kg).
-   Of an ideal gas that is all of the internal energy, du = p/rho^2 drho by the scheme's own rate of density and the heat
-   of viscosity (Wickramarachchi 2009 eqs 3.23, 3.42, 3.52, 3.81): total energy is kept at every instant in every
-   scheme but DIRECT, entropy never falls (but with RENORMALISED gradients, which want a gas). Of other fluids u is the heat of viscosity, from 0 on, beside the energy of
-   compression. Artificial viscosity has the mean sound of both particles, and steps go by the fastest. Energy below 0
-   is ENERGY_LOST. A gas stands beside mirror and periodic faces, walls of one row, and walls of another fluid: where the
-   configuration's own eos is IDEAL_GAS there are no GHOST, ADAMI walls, whose pressure must follow from their density.
-   Beside a fluid of another density take the WEAK scheme. A density that is summed: a gas alone, and not in
-   KICK_DRIFT_KICK, LEAP_FROG. */
+   Of an ideal gas that is all of the internal energy, du = p/rho^2 drho by the scheme's own rate of density and the
+   heat of viscosity (Wickramarachchi 2009 eqs 3.23, 3.42, 3.52, 3.81): total energy is kept at every instant in every
+   scheme but DIRECT, entropy never falls (but with RENORMALISED gradients, which want a gas). Of other fluids u is the
+   heat of viscosity, from 0 on, beside the energy of compression. Artificial viscosity has the mean sound of both
+   particles, and steps go by the fastest. Energy below 0 is ENERGY_LOST. A gas stands beside mirror and periodic faces,
+   walls of one row, and walls of another fluid: where the configuration's own eos is IDEAL_GAS there are no GHOST and
+   ADAMI walls, whose pressure must follow from their density. Beside a fluid of another density take the WEAK scheme. A
+   density that is summed: a gas alone, and not in KICK_DRIFT_KICK, LEAP_FROG. */
 
 /* Forms of a solid's equations; NO_SOLID: the scene has fluids only. With T = -sigma/rho^2, K_ij the vector between two
    particles, g = (dW/dr)/r at |K|, and v_ij = v_i - v_j:

@@ -55,7 +55,8 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
 #define BOOK_TOTAL(name, unit, when, what) out->name = sim->now.name;
     SPH_BOOKS(BOOK_TOTAL)
     out->balance = out->kinetic + out->potential + out->internal + out->elastic + out->plastic_work - out->wall_work -
-        out->body_work + (sph_has_energy(&sim->cfg) ? 0 : out->dissipated) + out->diffused + out->in_walls + out->in_bonds + out->unbalanced +
+        out->body_work + (sph_has_energy(&sim->cfg) ? 0 : out->dissipated) + out->diffused + out->in_walls +
+        out->in_bonds + out->unbalanced +
         out->absorbed + out->shifted + out->carried_off + out->released + out->put_back_loss + out->filtered +
         out->damped;
 }

@@ -62,7 +62,8 @@ gas_state riemann_at(const riemann *r, double s)
         return (gas_state){r->rho[k], r->v, r->p};
     /* within a rarefaction (4.56, 4.63) */
     const double c = sound(g, own), part = 2 / (g + 1) - sign * (g - 1) / ((g + 1) * c) * (own->v - s);
-    const gas_state inside = {own->rho * sph_pow(part, 2 / (g - 1)), 2 / (g + 1) * (-sign * c + (g - 1) / 2 * own->v + s),
+    const gas_state inside = {own->rho * sph_pow(part, 2 / (g - 1)),
+                              2 / (g + 1) * (-sign * c + (g - 1) / 2 * own->v + s),
                               own->p * sph_pow(part, 2 * g / (g - 1))};
     return inside;
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* energy.c: the energy equation. Of an ideal gas p = (gamma - 1) rho u, c = sqrt(gamma (gamma - 1) u),
      du_i = p_i/rho_i^2 drho_i + q_i
-   with the rate of density by motion alone, without diffusion, of the scheme: so it is, in the schemes' order, eqs 3.42,
-   that of 3.80, 3.23, 3.52, 3.81 of Wickramarachchi 2009. Of other fluids du_i = q_i. q_i is what viscosity makes: half
-   of its work on the relative velocity that it sees, and tau_i : L_i/rho_i of a viscous stress (viscosity.c, shear.c:
-   `viscous`). The Courant limit takes max(|mu|, |mu| + (c - c0)/h), or with courant alpha/(2 (DIM + 2) viscous_factor) c
-   for c, whichever asks for more. */
+   with the rate of density by motion alone, without diffusion, of the scheme: so it is, in the schemes' order, eqs
+   3.42, that of 3.80, 3.23, 3.52, 3.81 of Wickramarachchi 2009. Of other fluids du_i = q_i. q_i is what viscosity
+   makes: half of its work on the relative velocity that it sees, and tau_i : L_i/rho_i of a viscous stress
+   (viscosity.c, shear.c: `viscous`). The Courant limit takes max(|mu|, |mu| + (c - c0)/h), or with courant alpha/(2
+   (DIM + 2) viscous_factor) c for c, whichever asks for more. */
 #include "oracle.h"
 
 bool o_is_gas(const o_scene *s, const o_particle *p) { return s->set[p->set].eos == SPH_IDEAL_GAS; }

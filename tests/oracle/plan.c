@@ -420,8 +420,8 @@ void plan_print(const plan *p)
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
            c->integrator, p->steps);
-    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g\n", c->shear, c->smagorinsky, c->subgrid, c->filter,
-           c->energy, c->gamma);
+    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g\n", c->shear, c->smagorinsky, c->subgrid,
+           c->filter, c->energy, c->gamma);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,

@@ -10,8 +10,9 @@
                           (Powell 2012 eq 1.40)
      Runge-Kutta          forces at t; all of it half a step on; forces there; x' = x + dt (v_h + u_h), and v, rho by a
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
-   Energies and stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
-   where its motion says at each of these times. Damage grows with them, by what the strain was at the step's beginning.
+   Energies and stresses go as densities do; stresses return to the yield surface wherever they have gone. What moves as
+   it is told is where its motion says at each of these times. Damage grows with them, by what the strain was at the
+   step's beginning.
    At the end of a step sponges take, then shifting. Faces: periodic ones let in on the other side; a plane of symmetry
    takes the mirrored particle instead, with all that it has: place, reference position, velocity, stress, and their
    rates. A no-slip mirror throws it back: what has a direction turns
