@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* factors.c: constants of the pair formulas, made at init and when the configuration changes, or, where they are not the
-   same for all pairs, of a home and a tile; and the Courant number that the integrator stands. */
+/* factors.c: constants of the pair formulas, made at init and when the configuration changes, or, where they are not
+   the same for all pairs, of a home and a tile; and the Courant number that the integrator stands. */
 #include "factors.h"
 #include "kernels.h"
 #include "sweep.h"
