@@ -36,7 +36,7 @@ static UNUSED void scene_body(void *ctx, double t, const double *x, const double
 static UNUSED void scene_fluids(sph_config *c)
 {
     c->scheme = scene_draw(SPH_SCHEMES);
-    c->eos = c->scheme > SPH_DIRECT ? SPH_ISOTHERMAL : scene_draw(SPH_EOSES);
+    c->eos = c->scheme > SPH_DIRECT ? SPH_ISOTHERMAL : scene_draw(SPH_IDEAL_GAS); /* a gas: random_build */
     c->density = scene_one_in(4) ? SPH_SUMMATION : SPH_CONTINUITY;
     c->shifting = scene_one_in(3) ? scene_toss(0.2, 2) : 0;
     c->shear = c->viscosity != SPH_MORRIS && scene_one_in(3) ? 1 + scene_draw(SPH_SHEARS - 1) : SPH_NO_SHEAR;
@@ -46,6 +46,7 @@ static UNUSED void scene_fluids(sph_config *c)
         c->filter = scene_draw(SPH_FILTERS);
         c->filter_period = scene_one_in(5) ? 1.5e-3 : 0;
         c->gradient = scene_one_in(3) && (c->scheme == SPH_STANDARD || c->scheme == SPH_WEAK) ? 1 + scene_draw(2) : 0;
+        c->energy = SPH_WITH_ENERGY && c->gradient != SPH_RENORMALISED && scene_one_in(4);
     }
 }
 
@@ -184,6 +185,8 @@ static UNUSED void random_build(sph_sim *sim, const sph_config *c)
         high = scene_rock(sim, c, false);
     else if (scene_one_in(3))
         must(sim, sph_add_fluid(sim, NULL, &high));
+    else if (c->energy)
+        must(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 2, .own_eos = true, .eos = SPH_IDEAL_GAS}, &high));
     scene_fill(sim, low, 0, half);
     scene_fill(sim, high, half, RANDOM_CELLS - scene_draw(3));
 #if SPH_DIM > 1

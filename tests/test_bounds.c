@@ -46,7 +46,7 @@ static void a_fluids_numbers(void **state)
     sph_sim *sim = new_sim(&c);
     must(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 1e-14}, &set));
     must(sim, sph_add_fluid(sim, &(sph_fluid){.sound_speed = 9e14}, &set));
-    must(sim, sph_add_fluid(sim, &(sph_fluid){.own_eos = true, .eos = SPH_EOSES - 1}, &set));
+    must(sim, sph_add_fluid(sim, &(sph_fluid){.own_eos = true, .eos = SPH_IDEAL_GAS - 1}, &set));
     for (int i = 0; i < 2; i++) {
         const double v = i ? high : low;
         told(sim, sph_add_fluid(sim, &(sph_fluid){.mass = v}, &set), "fluid.mass", "1e-30 .. 1e30", v);

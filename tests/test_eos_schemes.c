@@ -90,7 +90,7 @@ static void pressures_follow_the_equations_of_state(void **state)
 {
     static const double rho[] = {990, 1000, 1001, 1030};
     (void)state;
-    for (uint32_t eos = 0; eos < SPH_EOSES; eos++)
+    for (uint32_t eos = 0; eos < SPH_IDEAL_GAS; eos++)
         for (int floor_ = 0; floor_ < 2; floor_++) {
             sph_config c = open_config(1, DX);
             uint32_t set;
@@ -151,7 +151,7 @@ static void internal_energy_is_the_work_of_the_pressure_that_acts(void **state)
 {
     static const double s[] = {0.25, 0.6, 0.99, 0.99999, 1, 1.00001, 1.001, 1.5, 2, 4, 8};
     (void)state;
-    for (uint32_t eos = 0; eos < SPH_EOSES; eos++)
+    for (uint32_t eos = 0; eos < SPH_IDEAL_GAS; eos++)
         for (int floor_ = 0; floor_ < 2; floor_++)
             for (uint32_t i = 0; i < sizeof s / sizeof *s; i++) {
                 /* the state holds s - 1 to eps: so is the energy, by the pressure's work over that; the rule errs by

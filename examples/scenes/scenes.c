@@ -13,6 +13,9 @@
     X(still_tank)                                                                                           \
     X(standing_wave)                                                                                        \
     X(shock_tube)                                                                                           \
+    X(rotating_patch)                                                                                       \
+    X(drop)                                                                                                 \
+    X(dam_break_wick)                                                                                       \
     X(taylor_green)                                                                                         \
     X(channel)                                                                                              \
     X(elliptical_drop)                                                                                      \
