@@ -35,6 +35,19 @@ static void find_kin(sph_sim *sim, sph_set *s)
     sim->mixed |= sim->own_sound || !same(s->rho0, c->rho0) || SPH_IS(s->eos, TAIT_GRAY) != SPH_IS(c->eos, TAIT_GRAY);
 }
 
+/* what a set's equation of state and the energy equation ask of each other */
+static sph_status check_gas(sph_sim *sim, uint32_t eos)
+{
+    const sph_config *c = &sim->cfg;
+    const bool gas = SPH_IS(eos, IDEAL_GAS), turned = SPH_IS(c->gradient, RENORMALISED); /* heat may be negative */
+    if (gas && !sph_has_energy(c))
+        return sph_setup_bad(sim, "eos", "another than SPH_IDEAL_GAS without the energy equation", eos);
+    if (!gas && sph_has_energy(c) && (sph_sums_density(c) || turned))
+        return sph_setup_bad(sim, "eos", "SPH_IDEAL_GAS with the energy equation, where density is summed or gradients "
+                             "are SPH_RENORMALISED", eos);
+    return SPH_OK;
+}
+
 #define OWN_EOS (SPH_WITH_SOLID || SPH_WITH_ENERGY)
 /* begins a set of fluid or solid: what both have; *out is the place for the rest, or stays null */
 static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint32_t *set, sph_set **out)
@@ -53,19 +66,14 @@ static sph_status begin_body(sph_sim *sim, bool solid, const sph_fluid *f, uint3
         return sph_setup_bad(sim, "rho0, sound_speed", "0 (modules.h)", f->rho0);
     if (f->own_eos && (!OWN_EOS || !sph_in(SPH_EOSES_IN, f->eos)))
         return sph_setup_bad(sim, "eos", "one of SPH_TAIT .. SPH_IDEAL_GAS, compiled in (modules.h)", f->eos);
-    const uint32_t eos = OWN_EOS && f->own_eos ? f->eos : sim->cfg.eos;
-    if (SPH_IS(eos, IDEAL_GAS) && !sph_has_energy(&sim->cfg))
-        return sph_setup_bad(sim, "eos", "another than SPH_IDEAL_GAS without the energy equation", eos);
-    const bool turned = SPH_IS(sim->cfg.gradient, RENORMALISED); /* heat may be negative (energy.h) */
-    if (sph_has_energy(&sim->cfg) && (sph_sums_density(&sim->cfg) || turned) && !SPH_IS(eos, IDEAL_GAS))
-        return sph_setup_bad(sim, "eos", "SPH_IDEAL_GAS with the energy equation, where density is summed or gradients "
-                             "are SPH_RENORMALISED", eos);
+    if (SPH_WITH_ENERGY && (st = check_gas(sim, f->own_eos ? f->eos : sim->cfg.eos)) != SPH_OK)
+        return st;
     if (sim->sets == sim->cfg.max_sets)
         return sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most max_sets", sim->sets, SPH_NO_PARTICLE);
     sph_set *s = &sim->set[sim->sets];
     memset(s, 0, sizeof *s);
     s->group = SPH_MAX_GROUPS;
-    s->eos = (uint8_t)eos;
+    s->eos = (uint8_t)(OWN_EOS && f->own_eos ? f->eos : sim->cfg.eos);
     s->rho0 = f->rho0 > 0 ? f->rho0 : sim->cfg.rho0;
     s->c0 = f->sound_speed > 0 ? f->sound_speed : sim->cfg.sound_speed;
     s->mass = f->mass > 0 ? f->mass : s->rho0 * sph_setup_cell_volume(sim);

@@ -26,8 +26,11 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
     out->role = s->role;
     out->mass = s->mass;
     out->rho = s->rho0 * (1 + (double)b->rho[0][i]);
-    out->p = sph_pressure_at(sim, b, i);
-    out->energy = SPH_WITH_ENERGY && b->energy[0] ? (double)b->energy[0][i] : 0;
+    out->p = sph_pressure(sim, s, (double)b->rho[0][i]);
+    if (sph_has_energy(&sim->cfg)) {
+        out->p = sph_pressure_at(sim, b, i);
+        out->energy = (double)b->energy[0][i];
+    }
     for (int k = 0; SPH_WITH_SOLID && k < 3; k++)
         out->stress[k] = -out->p;
     if (SPH_WITH_SOLID && sph_is_solid(s)) {

@@ -68,11 +68,13 @@ double sph_stress_of(const sph_sim *sim, const sph_buffer *b, uint32_t i, double
 static double internal_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 {
     const sph_set *s = &sim->set[b->set[0][i]];
-    const double d = (double)b->rho[0][i], heat = sph_has_energy(&sim->cfg) ? (double)b->energy[0][i] : 0;
+    const double d = (double)b->rho[0][i];
     if (sph_is_gas(s))
-        return heat;
+        return (double)b->energy[0][i];
     const double e = sph_eos_energy(s->eos, (double)s->b_r, s->rho0, d, sph_has_floor(sim, s));
-    return (sph_pressure(sim, s, d) < 0 ? e * (1 - damage_of(b, i)) : e) + heat;
+    if (sph_has_energy(&sim->cfg))
+        return e + (double)b->energy[0][i];
+    return sph_pressure(sim, s, d) < 0 ? e * (1 - damage_of(b, i)) : e;
 }
 
 /* (1 - D) S:S/(4 mu), J/m^3 */
@@ -114,9 +116,10 @@ sph_energy sph_energy_of(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n)
 {
     uint64_t h = 0x5350482d68617368u;
-    (void)sim;
+    const sph_config *c = &sim->cfg;
+    (void)c;
 #define MIX(name, type, comps, unit, when, way)                                                                       \
-    for (uint32_t k = 0; k < (comps); k++)                                                                            \
+    for (uint32_t k = 0; (when) && k < (comps); k++)                                                                  \
         if (b->name[k])                                                                                               \
             h = sph_mix_array(h, b->name[k], sizeof(type), n);
     SPH_STATE_FIELDS(MIX)

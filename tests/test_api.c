@@ -135,7 +135,7 @@ static void a_module_that_is_not_chosen_adds_nothing_to_the_arena(void **state)
     ADDS(kernel, SPH_WENDLAND_C4, 0);
     for (uint32_t k = 0; k < SPH_SCHEMES; k++)
         ADDS(scheme, k, 0);
-    for (uint32_t k = 0; k < SPH_EOSES; k++)
+    for (uint32_t k = 0; k < SPH_IDEAL_GAS; k++)
         ADDS(eos, k, 0);
     for (uint32_t k = 0; k < SPH_DIFFUSIONS; k++)
         ADDS(diffusion, k, 0);

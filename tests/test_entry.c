@@ -329,7 +329,7 @@ static void row_add_fluid(void)
         }
     EACH_WORD(w) {
         const sph_fluid f = {.own_eos = true, .eos = w};
-        if_idle(sph_add_fluid(bed.sim, &f, OUT(uint32_t)), w < SPH_EOSES ? SPH_OK : SPH_BAD_ARGUMENT);
+        if_idle(sph_add_fluid(bed.sim, &f, OUT(uint32_t)), w < SPH_IDEAL_GAS ? SPH_OK : SPH_BAD_ARGUMENT);
     }
 }
 

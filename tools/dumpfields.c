@@ -33,7 +33,7 @@ static void get_sets(const dump_file *d, set_constants *c)
 
 enum {
     F_NONE, F_X, F_VELOCITY, F_SPEED, F_DENSITY, F_PRESSURE, F_ACCELERATION, F_SET, F_ID,
-    F_STRESS, F_MEAN, F_SUM, F_MISES, F_PLASTIC, F_DAMAGE, F_KINDS
+    F_STRESS, F_MEAN, F_SUM, F_MISES, F_PLASTIC, F_DAMAGE, F_ENERGY, F_KINDS
 };
 static const struct {
     const char *unit, *array; /* array: what must be there besides those of dump_field */
@@ -46,7 +46,7 @@ static const struct {
     [F_ID] = {"", "id", false},            [F_STRESS] = {"Pa", "stress", true},
     [F_MEAN] = {"Pa", "stress", true},     [F_SUM] = {"Pa", "stress", true},
     [F_MISES] = {"Pa", "stress", false},   [F_PLASTIC] = {"", "plastic", false},
-    [F_DAMAGE] = {"", "damage", false}};
+    [F_DAMAGE] = {"", "damage", false},    [F_ENERGY] = {"J/kg", "energy", false}};
 
 /* components of a symmetric tensor: those stored, in their order, then zz */
 enum { XX, YY, XY, XZ, YZ, ZZ };
@@ -59,7 +59,7 @@ static int parse_field(const dump_file *d, const char *field, uint32_t *axis)
         int kind;
     } whole[] = {{"speed", F_SPEED}, {"density", F_DENSITY}, {"pressure", F_PRESSURE}, {"set", F_SET}, {"id", F_ID},
                  {"mean_stress", F_MEAN}, {"stress_sum", F_SUM}, {"von_mises", F_MISES}, {"plastic", F_PLASTIC},
-                 {"damage", F_DAMAGE}},
+                 {"damage", F_DAMAGE}, {"energy", F_ENERGY}},
       parts[] = {{"velocity_", F_VELOCITY}, {"acceleration_", F_ACCELERATION}, {"", F_X}};
     static const char *const pairs[] = {"xx", "yy", "xy", "xz", "yz", "zz"};
     static const bool there[3][6] = {{true}, {true, true, true, false, false, true},
@@ -84,7 +84,7 @@ static int parse_field(const dump_file *d, const char *field, uint32_t *axis)
 
 /* the arrays that a field is made of; those that need a pressure take the density, else the pressure itself */
 typedef struct arrays {
-    const dump_section *main, *pressure, *damage;
+    const dump_section *main, *pressure, *damage, *energy;
 } arrays;
 
 /* null, or the name of an array that is missing */
@@ -93,6 +93,7 @@ static const char *find_arrays(const dump_file *d, int kind, arrays *a)
     const bool stress = kind == F_STRESS || kind == F_MEAN || kind == F_SUM;
     a->pressure = dump_find(d, "rho") ? dump_find(d, "rho") : dump_find(d, "p");
     a->damage = dump_find(d, "damage");
+    a->energy = dump_find(d, "energy");
     a->main = kind == F_PRESSURE ? a->pressure : dump_find(d, kinds[kind].array);
     return !a->main ? kinds[kind].array : stress && !a->pressure ? "rho" : NULL;
 }
@@ -125,12 +126,15 @@ double dump_field_mirrored(const dump_file *d, const char *field, uint32_t axis,
 
 /* ---- values ---- */
 
-/* by the set's equation of state, numbered as in sph.h: 2 linear, 3 isothermal, else Tait's; solids bear tension */
+/* by the set's equation of state, numbered as in sph.h: 2 linear, 3 isothermal, 4 ideal gas, else Tait's; solids bear
+   tension */
 static double pressure(const dump_file *d, const arrays *a, const set_constants *c, uint32_t i)
 {
     const double s = dump_value(a->pressure, 0, i);
     if (strcmp(a->pressure->name, "rho") != 0)
         return s;
+    if (c->eos == 4)
+        return a->energy ? c->scale * (1 + s) * dump_value(a->energy, 0, i) : 0;
     double p = c->eos == 2   ? c->scale * s
                : c->eos == 3 ? c->scale * (1 + s)
                              : c->scale * (s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s)))))));
@@ -195,6 +199,7 @@ static double one_value(const dump_file *d, int kind, const arrays *a, const set
     case F_DENSITY: return c ? c->rho0 * (1 + dump_value(a->main, 0, i)) : 0;
     case F_PRESSURE: return c ? pressure(d, a, c, i) : 0;
     case F_DAMAGE: return c ? damage(d, a, c, i) : 0;
+    case F_ENERGY: return dump_value(a->main, 0, i);
     case F_PLASTIC: return c && c->role == DUMP_SOLID ? dump_value(a->main, 0, i) : 0;
     case F_STRESS:
     case F_MEAN:

@@ -110,7 +110,7 @@ bool dump_mirror(const dump_file *d, uint32_t axis, uint32_t side, bool *no_slip
    damage is D; the array of that name holds D^(1/dim). */
 #define DUMP_FIELDS \
     "x y z velocity_x.. speed density pressure acceleration_x.. stress_xx stress_yy stress_xy.. mean_stress " \
-    "stress_sum von_mises plastic damage set id"
+    "stress_sum von_mises plastic damage energy set id"
 bool dump_field(const dump_file *d, const char *field, double *out, const char **unit);
 bool dump_has_field(const dump_file *d, const char *field);
 bool dump_field_signed(const dump_file *d, const char *field);
