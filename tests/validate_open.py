@@ -85,7 +85,7 @@ def drop(add, quick):
 
 
 def dam(add, quick):
-    """W3: fronts beside volume of fluid (instant gate) at 1.1 and 2.2 s; printed 39.0 and 62.5, experiment 33.3, 56.2"""
+    """W3: fronts at 1.1 and 2.2 s beside volume of fluid (instant gate); printed 39.0, 62.5, measured 33.3, 56.2 m"""
     for wall in ("adami", "adami_no_slip"):
         for gradient in ("plain", "renormalised"):
             run = Run("dam_break_wick", wall=wall, gradient=gradient, every=0.11, **(dict(n=20) if quick else {}))

@@ -85,8 +85,8 @@ static double front_of_reference(double t)
     return z[k] + (z[k + 1] - z[k]) * (at - k);
 }
 
-static const char *const column[] = {"time_s", "front_m", "front_fluid_volume_m", "height_m", "kinetic_J", "potential_J",
-                                     "dissipated_J", "balance_J"};
+static const char *const column[] = {"time_s",    "front_m",       "front_fluid_volume_m", "height_m",
+                                     "kinetic_J", "potential_J", "dissipated_J",        "balance_J"};
 
 static void history(const sph_sim *sim, const double *p, double *row)
 {

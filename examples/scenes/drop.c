@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* drop.c: a round drop of water falls into a tank and hits the surface (Wickramarachchi 2009, section 6.4.3: fallen 0.5,
-   3 m/s at impact, 8,000 particles in all; he prints no sizes). Begins a moment before impact with the speed of the
+/* drop.c: a round drop of water falls into a tank and hits the surface (Wickramarachchi 2009, section 6.4.3: fallen
+   0.5, 3 m/s at impact, 8,000 particles in all; he prints no sizes). Begins a moment before impact with the speed of the
    fall. How many particles are detached: dumps and `sph fragments of=fluid`, and in the history those that have less
-   than three neighbours within 1.5 spacings, which no film or drop of any size has. */
+   than three neighbours within 1.5 spacings. */
 #include "scene.h"
 #if SPH_DIM == 2
 
@@ -62,8 +62,8 @@ static sph_status build(sph_sim *sim, const double *p)
     tank(p, lo, top, hi);
     const double centre[2] = {0.5 * hi[0], top[1] + r + spacing(p)};
     if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, top, NULL)) != SPH_OK ||
-        (st = sph_apply_hydrostatic(sim, water, top[1])) != SPH_OK || (st = sph_add_fluid(sim, NULL, &drop)) != SPH_OK ||
-        (st = sph_add_ring(sim, drop, centre, 0, r, v)) != SPH_OK)
+        (st = sph_apply_hydrostatic(sim, water, top[1])) != SPH_OK ||
+        (st = sph_add_fluid(sim, NULL, &drop)) != SPH_OK || (st = sph_add_ring(sim, drop, centre, 0, r, v)) != SPH_OK)
         return st;
     return scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1));
 }

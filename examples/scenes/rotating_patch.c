@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* rotating_patch.c: a square of water that turns, without gravity and walls (Colagrossi 2005; Le Touze et al. 2013): its
-   corners grow into arms, and inside pressure is negative. Starts with the pressure of incompressible water turning as
-   a whole, laplace p = 2 rho w^2 and 0 on the rim. */
+/* rotating_patch.c: a square of water that turns, without gravity and walls (Colagrossi 2005; Le Touze et al. 2013):
+   its corners grow into arms, and inside pressure is negative. Starts with the pressure of incompressible water turning
+   as a whole, laplace p = 2 rho w^2 and 0 on the rim. */
 #include "scene.h"
 #if SPH_DIM == 2
 
