@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* drop.c: a round drop of water falls into a tank and hits the surface (Wickramarachchi 2009, section 6.4.3: fallen
-   0.5, 3 m/s at impact, 8,000 particles in all; he prints no sizes). Begins a moment before impact with the speed of the
-   fall. How many particles are detached: dumps and `sph fragments of=fluid`, and in the history those that have less
-   than three neighbours within 1.5 spacings. */
+   0.5, 3 m/s at impact, 8,000 particles in all; he prints no sizes). Begins a moment before impact with the speed of
+   the fall. How many particles are detached: dumps and `sph fragments of=fluid`, and in the history those that have
+   less than three neighbours within 1.5 spacings. */
 #include "scene.h"
 #if SPH_DIM == 2
 
