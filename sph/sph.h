@@ -38,7 +38,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 5u /* 1: without solids; 2: without sponges; 3: before `rise`, with fewer books; 4: before `lag` */
+#define SPH_VERSION 6u /* 1: without solids; 2: sponges; 3: `rise`, many books; 4: `lag`; 5: `energy` */
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
