@@ -70,23 +70,31 @@ static sph_status build(sph_sim *sim, const double *p)
 
 static double end(const double *p) { return p[DURATION]; }
 
-/* fluid particles with fewer than three others within 1.5 spacings */
-static uint32_t detached(const sph_sim *sim, double reach)
+/* How many of the fluid stand within `reach` of particle i on one side of it in the arrays, at most 3; these are in order
+   of slabs of cells along y, so that beyond `far` none is to come. */
+static uint32_t neighbours(const sph_sim *sim, const sph_particle *a, uint32_t i, int way, double reach, double far)
 {
-    uint32_t n = 0;
-    sph_particle a, b;
-    for (uint32_t i = 0; i < sph_count(sim); i++) {
-        uint32_t near = 0;
-        if (sph_get(sim, i, &a) != SPH_OK || a.role != SPH_ROLE_FLUID)
-            continue;
-        for (uint32_t j = 0; j < sph_count(sim) && near < 4; j++) { /* itself among them */
-            if (sph_get(sim, j, &b) != SPH_OK || b.role != SPH_ROLE_FLUID)
-                continue;
-            const double x = a.x[0] - b.x[0], y = a.x[1] - b.x[1];
-            near += x * x + y * y < reach * reach;
-        }
-        n += near < 4;
+    uint32_t near = 0;
+    sph_particle b;
+    for (uint32_t j = i + (uint32_t)way; near < 3 && sph_get(sim, j, &b) == SPH_OK; j += (uint32_t)way) {
+        const double x = a->x[0] - b.x[0], y = a->x[1] - b.x[1];
+        if (SCENE_ABS(y) > far)
+            break;
+        near += b.role == SPH_ROLE_FLUID && x * x + y * y < reach * reach;
     }
+    return near;
+}
+
+/* fluid particles with fewer than three others within 1.5 spacings */
+static uint32_t detached(const sph_sim *sim, const double *p)
+{
+    const double support = sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * spacing(p);
+    const double reach = 1.5 * spacing(p), far = 3 * support;
+    uint32_t n = 0;
+    sph_particle a;
+    for (uint32_t i = 0; i < sph_count(sim); i++)
+        if (sph_get(sim, i, &a) == SPH_OK && a.role == SPH_ROLE_FLUID)
+            n += neighbours(sim, &a, i, 1, reach, far) + neighbours(sim, &a, i, -1, reach, far) < 3;
     return n;
 }
 
@@ -103,7 +111,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     sph_extent(sim, 1, &low, &high);
     sph_surface(sim, bed, 1, &level);
     row[0] = sph_time(sim);
-    row[1] = detached(sim, 1.5 * spacing(p));
+    row[1] = detached(sim, p);
     row[2] = high - top[1];
     row[3] = level - top[1];
     row[4] = o.kinetic;
