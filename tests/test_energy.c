@@ -153,7 +153,7 @@ static void lost_energy_is_told_and_changes_nothing(void **state)
     c.eos = SPH_IDEAL_GAS;
     c.energy = true;
     c.viscosity = SPH_INVISCID;
-    c.gamma = 5;
+    c.gamma = 10;
     c.sound_speed = 0.2;
     c.dt = 0.04;
     sph_sim *sim = new_sim(&c);

@@ -51,7 +51,7 @@ double o_excess_at(uint32_t eos, double rho0, double c0, double p)
 
 double o_sound(uint32_t eos, double c0) { return eos == SPH_TAIT_GRAY ? sqrt(7) * c0 : c0; }
 
-static void refresh(const o_scene *s, o_particle *p)
+static void refresh(o_scene *s, o_particle *p)
 {
     const o_set *set = &s->set[p->set];
     const bool solid = set->role == SPH_ROLE_SOLID;
@@ -60,6 +60,8 @@ static void refresh(const o_scene *s, o_particle *p)
     p->p = o_pressure(set->eos, set->rho0, set->c0, p->d);
     if (s->cfg.pressure_floor && !solid)
         p->p = o_max(p->p, 0);
+    if (!(p->d > -1)) /* between two stages of a step: the kernel's polynomial goes on, the power does not */
+        s->undecided = "a density below 0 within a step";
     p->c = set->c0;
     if (o_is_gas(s, p))
         o_gas_state(s, p);
