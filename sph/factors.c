@@ -162,7 +162,7 @@ void sph_make_factors(sph_sim *sim)
     f->av_beta = (sph_real)(2 * h * h * c->beta);
     f->morris = SPH_WITH_MORRIS ? (sph_real)(4 * c->nu) : 0;
     f->diff = SPH_HAS_DIFFUSION ? (sph_real)(2 * c->delta * h * c->sound_speed) : 0;
-    f->most_inv_rho = SPH_HAS_DIFFUSION ? (sph_real)(2 / c->rho0) : 0;
+    f->least_rho = SPH_HAS_DIFFUSION ? (sph_real)(0.5 * c->rho0) : 0;
     const double c2 = c->sound_speed * c->sound_speed * (SPH_IS(c->eos, TAIT_GRAY) ? 7 : 1);
     for (int k = 0; k < SPH_DIM; k++) {
         f->gravity[k] = (sph_real)c->gravity[k];

@@ -18,7 +18,7 @@ static void begin(const o_scene *s, o_particle *i)
 {
     const o_sum none = {0, 0};
     i->rate = i->viscous = i->worked = i->diffused = i->pushed = none;
-    i->mu = 0;
+    i->mu = i->mu_at_edge = 0;
     for (int k = 0; k < 3; k++) {
         i->a[k] = none;
         if (!s->cfg.xsph_strain || !o_has_solids(s))

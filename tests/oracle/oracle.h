@@ -87,7 +87,7 @@ typedef struct o_particle {
     o_sum viscous, worked, pushed; /* powers for the books, W/kg */
     o_sum gradient[3][3];      /* sum m_j v_ij (x) K g (weak: m_j/rho_j), of which L is made */
     o_sum disorder[3], filling; /* shifting: minus the slope of disorder (1/m), cover less 1; 0 where it acts not */
-    double mu;                 /* largest |mu| of its pairs */
+    double mu, mu_at_edge;     /* largest |mu| of its pairs; of those that rounding may take for none */
 } o_particle;
 
 typedef struct o_scene {
@@ -155,6 +155,7 @@ typedef struct o_pair {
     double g, w;              /* (dW/dr)/|K|, W at |K|; g is 0 at |K| = 0 */
     double slope, value;      /* magnitudes of grad W and W for the scale of errors */
     bool apart, bond;         /* of two bodies; of one body, seen in the reference position */
+    bool edge;                /* so near to the support's end, from within or without, that rounding decides */
     double volume;            /* m_j/rho_j */
 } o_pair;
 bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p); /* false: beyond the support */
@@ -201,10 +202,19 @@ void o_told(const o_set *set, double t, double *x, double *v); /* what moves as 
 void o_begin_steps(o_scene *s, uint32_t room); /* forgets rates of steps before; of at most `room` particles */
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold));
 
+/* ---- condition.c ---- */
+typedef struct o_spread { /* what comes at most of one rounding at the beginning; infinite: anything */
+    double x, v, d, dev, plastic, root, shifted;
+} o_spread;
+void o_keep(o_scene *kept, const o_scene *s); /* a copy without images, in memory of its own */
+o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps, double dt,
+                       uint32_t (*flaws_of)(uint32_t id, float *threshold));
+
 /* ---- limits.c ---- */
 typedef struct o_limits {
     double courant, viscous, force, gravity, diffusion; /* s, 0: none */
     double courant_scale;
+    bool courant_undecided; /* the largest |mu| is of a pair that rounding may take for none */
 } o_limits;
 o_limits o_find_limits(const o_scene *s);
 double o_courant_number(const sph_config *c); /* cfl, or what the integrator stands */
