@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* condition.c: how well a scene is conditioned: its steps once more by the oracle alone, from a state in which every
-   number is disturbed by its last place (of the kernel's reals; places by that of a spacing), some times over. What
-   comes of that at the end, the largest of all particles, is what one rounding makes of each quantity. A sum of the
-   kernel is right within its tolerance, so many last places, and so two trajectories agree no better than that many
-   times it. */
-#include <float.h>
+   number is disturbed by as much as a sum of the kernel may be off, some times over. What comes of that at the end, the
+   largest of all particles, is what rounding makes of each quantity: two trajectories agree no better than some times
+   it. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,11 +23,11 @@ static void copy(o_scene *to, const o_scene *from)
     to->m = 0;
 }
 
-static double last_place(double size)
+static double error(double size)
 {
     static uint32_t state = 1;
     state = state * 1664525u + 1013904223u; /* Knuth & Lewis */
-    return (state >> 31 ? 1 : -1) * (SPH_DOUBLE ? DBL_EPSILON : (double)FLT_EPSILON) * fabs(size);
+    return (state >> 31 ? 1 : -1) * (SPH_DOUBLE ? 1e-11 : 1e-5) * fabs(size); /* compare.c, TOLERANCE */
 }
 
 static void disturb(o_scene *s)
@@ -38,16 +36,16 @@ static void disturb(o_scene *s)
         o_particle *p = &s->own[i];
         if (!o_is_body(s, p) && !s->set[p->set].compressible)
             continue;
-        p->d += last_place(p->d);
+        p->d += error(p->d);
         for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++) {
-            const double way = last_place(s->cfg.spacing);
+            const double way = error(s->cfg.spacing);
             p->x[k] += way;
             p->rest[k] += way;
-            p->v[k] += last_place(p->v[k]);
+            p->v[k] += error(p->v[k]);
         }
         for (int k = 0; k < 3 && o_is_solid(s, p); k++)
             for (int l = 0; l <= k; l++)
-                p->dev[k][l] = p->dev[l][k] = p->dev[k][l] + last_place(p->dev[k][l]);
+                p->dev[k][l] = p->dev[l][k] = p->dev[k][l] + error(p->dev[k][l]);
     }
 }
 
@@ -72,6 +70,10 @@ o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps,
         o_begin_steps(&s, s.n);
         for (uint32_t k = 1; k <= steps; k++)
             o_step(&s, k, dt, flaws_of);
+        if (s.n != end->n) { /* even who is still there */
+            const double any = (double)INFINITY;
+            return (o_spread){any, any, any, any, any, any, any};
+        }
         widen(&o.shifted, s.shifted.v, end->shifted.v);
         for (uint32_t i = 0; i < s.n; i++) {
             const o_particle *p = &s.own[i], *q = &end->own[i];

@@ -46,11 +46,14 @@ typedef struct o_set {
     double shear, yield, hardening, crack;    /* Pa, Pa, Pa, 1/s */
     uint32_t body, held;
     bool flat;
+    bool region;                              /* of walls: whether there is one behind the face, */
+    double thick, half[2];                    /* so thick, and to both sides of its middle so wide, m */
 } o_set;
 
 typedef struct o_particle {
     uint32_t id, set;
     bool image;
+    bool gone;                 /* left, or was removed: as if it had never been */
     /* state */
     double x[3], v[3], d;      /* m, m/s, (rho - rho0)/rho0 */
     double rest[3];            /* reference position (m) */
@@ -101,6 +104,8 @@ typedef struct o_scene {
     uint32_t room;
     double fastest;            /* m/s: of the bodies, when the last forces were made */
     o_sum shifted;             /* J, what shifting took since o_begin_steps */
+    uint32_t left, crossed, put_back; /* particles since o_begin_steps, and their energies, J */
+    o_sum carried_off, put_back_loss;
     const char *undecided;     /* a choice that rounding decides (a pair exactly at a kernel's edge ...), or null */
 } o_scene;
 
@@ -203,12 +208,15 @@ void o_begin_steps(o_scene *s, uint32_t room); /* forgets rates of steps before;
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold));
 
 /* ---- condition.c ---- */
-typedef struct o_spread { /* what comes at most of one rounding at the beginning; infinite: anything */
+typedef struct o_spread { /* what comes of an error at the beginning; infinite: anything */
     double x, v, d, dev, plastic, root, shifted;
 } o_spread;
 void o_keep(o_scene *kept, const o_scene *s); /* a copy without images, in memory of its own */
 o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps, double dt,
                        uint32_t (*flaws_of)(uint32_t id, float *threshold));
+
+/* ---- crossing.c ---- */
+void o_cross(o_scene *s); /* who is in a wall: removed, or put back */
 
 /* ---- limits.c ---- */
 typedef struct o_limits {
@@ -226,6 +234,7 @@ typedef struct o_totals {
     o_sum rise; /* d(kinetic + potential + internal + elastic)/dt, W, from the accelerations and rates */
 } o_totals;
 o_totals o_find_totals(const o_scene *s);
+double o_energy_of(const o_scene *s, const o_particle *p); /* all that a body has, J */
 bool o_loses(const o_scene *s); /* whether a form of the equations does not conserve energy pair by pair */
 double o_diffused_per_rate(const o_scene *s, const o_particle *p); /* -p/rho^2 of the pressure that acts */
 
