@@ -83,7 +83,7 @@ typedef struct sph_factors {
     sph_real inv_h, eta, eta_morris, reach, reach2, slope, value;
     sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
-    sph_real most_inv_rho;       /* diffusion: of a neighbour, 2/rho0 (tiles.c) */
+    sph_real least_rho;          /* diffusion: of a neighbour, rho0/2 (tiles.c) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
     sph_real cover, weigh;       /* quadrature: slope over Q0, beta */
     bool rate_by_density, continuity, extras;

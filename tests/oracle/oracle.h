@@ -46,11 +46,14 @@ typedef struct o_set {
     double shear, yield, hardening, crack;    /* Pa, Pa, Pa, 1/s */
     uint32_t body, held;
     bool flat;
+    bool region;                              /* of walls: whether there is one behind the face, */
+    double thick, half[2];                    /* so thick, and to both sides of its middle so wide, m */
 } o_set;
 
 typedef struct o_particle {
     uint32_t id, set;
     bool image;
+    bool gone;                 /* left, or was removed: as if it had never been */
     /* state */
     double x[3], v[3], d;      /* m, m/s, (rho - rho0)/rho0 */
     double rest[3];            /* reference position (m) */
@@ -87,7 +90,7 @@ typedef struct o_particle {
     o_sum viscous, worked, pushed; /* powers for the books, W/kg */
     o_sum gradient[3][3];      /* sum m_j v_ij (x) K g (weak: m_j/rho_j), of which L is made */
     o_sum disorder[3], filling; /* shifting: minus the slope of disorder (1/m), cover less 1; 0 where it acts not */
-    double mu;                 /* largest |mu| of its pairs */
+    double mu, mu_at_edge;     /* largest |mu| of its pairs; of those that rounding may take for none */
 } o_particle;
 
 typedef struct o_scene {
@@ -101,6 +104,8 @@ typedef struct o_scene {
     uint32_t room;
     double fastest;            /* m/s: of the bodies, when the last forces were made */
     o_sum shifted;             /* J, what shifting took since o_begin_steps */
+    uint32_t left, crossed, put_back; /* particles since o_begin_steps, and their energies, J */
+    o_sum carried_off, put_back_loss;
     const char *undecided;     /* a choice that rounding decides (a pair exactly at a kernel's edge ...), or null */
 } o_scene;
 
@@ -155,6 +160,7 @@ typedef struct o_pair {
     double g, w;              /* (dW/dr)/|K|, W at |K|; g is 0 at |K| = 0 */
     double slope, value;      /* magnitudes of grad W and W for the scale of errors */
     bool apart, bond;         /* of two bodies; of one body, seen in the reference position */
+    bool edge;                /* so near to the support's end, from within or without, that rounding decides */
     double volume;            /* m_j/rho_j */
 } o_pair;
 bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p); /* false: beyond the support */
@@ -201,10 +207,22 @@ void o_told(const o_set *set, double t, double *x, double *v); /* what moves as 
 void o_begin_steps(o_scene *s, uint32_t room); /* forgets rates of steps before; of at most `room` particles */
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold));
 
+/* ---- condition.c ---- */
+typedef struct o_spread { /* what comes of an error at the beginning; infinite: anything */
+    double x, v, d, dev, plastic, root, shifted;
+} o_spread;
+void o_keep(o_scene *kept, const o_scene *s); /* a copy without images, in memory of its own */
+o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps, double dt,
+                       uint32_t (*flaws_of)(uint32_t id, float *threshold));
+
+/* ---- crossing.c ---- */
+void o_cross(o_scene *s); /* who is in a wall: removed, or put back */
+
 /* ---- limits.c ---- */
 typedef struct o_limits {
     double courant, viscous, force, gravity, diffusion; /* s, 0: none */
     double courant_scale;
+    bool courant_undecided; /* the largest |mu| is of a pair that rounding may take for none */
 } o_limits;
 o_limits o_find_limits(const o_scene *s);
 double o_courant_number(const sph_config *c); /* cfl, or what the integrator stands */
@@ -216,6 +234,7 @@ typedef struct o_totals {
     o_sum rise; /* d(kinetic + potential + internal + elastic)/dt, W, from the accelerations and rates */
 } o_totals;
 o_totals o_find_totals(const o_scene *s);
+double o_energy_of(const o_scene *s, const o_particle *p); /* all that a body has, J */
 bool o_loses(const o_scene *s); /* whether a form of the equations does not conserve energy pair by pair */
 double o_diffused_per_rate(const o_scene *s, const o_particle *p); /* -p/rho^2 of the pressure that acts */
 

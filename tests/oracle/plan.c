@@ -344,6 +344,23 @@ static void draw_tables(plan *p)
     }
 }
 
+/* In whole steps some fly out of the domain, and who is in a wall is removed or put back. */
+static void draw_the_going(plan *p)
+{
+    sph_config *c = &p->cfg;
+    if (p->steps == 0)
+        return;
+    c->on_cross = 1 + pick(SPH_POLICIES - 1);
+    for (uint32_t n = chance(0.4) ? 1 + pick(3) : 0; n > 0; n--) {
+        plan_point *q = &p->point[pick(p->points)];
+        const uint32_t k = pick(SPH_DIM), side = pick(2);
+        if (c->face[k][side] != SPH_OPEN || q->set >= p->fluids)
+            continue;
+        q->x[k] = side ? c->hi[k] - range(0.001, 0.05) * c->spacing : c->lo[k] + range(0.001, 0.05) * c->spacing;
+        q->v[k] = (side ? 0.3 : -0.3) * c->sound_speed;
+    }
+}
+
 void plan_draw(plan *p, uint64_t seed)
 {
     memset(p, 0, sizeof *p);
@@ -359,9 +376,9 @@ void plan_draw(plan *p, uint64_t seed)
     draw_sets(p);
     draw_domain(p);
     draw_points(p);
-    /* the printed forms divide by a pressure that goes through 0: rounding errors grow without bound */
+    /* the printed forms divide by a pressure that goes through 0: in many steps rounding errors grow without bound */
     if (p->cfg.scheme == SPH_STANDARD_WICK || p->cfg.scheme == SPH_WEAK_WICK)
-        p->steps = p->steps && SPH_DOUBLE ? 1 : 0;
+        p->steps = (uint32_t)o_min(p->steps, 5);
     p->wall_d = chance(0.5) ? 0 : range(0, 0.2);
     p->cfg.filter = chance(0.5) ? SPH_SHEPARD : SPH_MLS;
     p->cfg.shepard_every = p->cfg.solid == SPH_NO_SOLID && p->cfg.density == SPH_CONTINUITY && chance(0.5) ? 1 : 0;
@@ -376,6 +393,7 @@ void plan_draw(plan *p, uint64_t seed)
     for (uint32_t k = 0; k < p->solids; k++)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
     draw_tables(p);
+    draw_the_going(p);
 }
 
 void plan_print(const plan *p)
