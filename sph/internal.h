@@ -40,6 +40,7 @@ typedef struct sph_set {
     bool compressible, no_slip, corner;
     uint8_t eos;
     uint8_t kin; /* bodies: the first set of the same material: role, rest density, sound speed, equation of state */
+    uint8_t flow; /* 1 + the number of the inflow or outflow that it is; 0: none */
     double mass, rho0, c0;
     double strength;
     double origin[SPH_DIM];     /* middle of the wall's face at displacement 0, from the domain's low corner (m) */
@@ -49,6 +50,14 @@ typedef struct sph_set {
     sph_pos low[SPH_DIM], high[SPH_DIM]; /* box around that region, quanta, at displacement 0 */
     sph_real mass_r, rho0_r, inv_rho0_r, b_r; /* what the sweep reads; b: pressure scale of the equation of state */
 } sph_set;
+
+/* an inflow or outflow (flow.c): its box, the way through it */
+typedef struct sph_flow_state {
+    sph_pos face, end;                   /* quanta along its axis: the face to the water, the opposite one */
+    sph_pos lo[SPH_DIM], hi[SPH_DIM];    /* its box, quanta */
+    uint8_t axis, set, fluid;            /* its own set; of the water */
+    bool out, up;                        /* up: it goes along the axis, not against it */
+} sph_flow_state;
 
 /* what a set of solid has besides */
 typedef struct sph_material {
@@ -94,7 +103,7 @@ typedef struct sph_factors {
 typedef struct sph_scalars {
     double time, dt_last;
     uint64_t step;
-    uint32_t count, left, crossed, put_back, reflected;
+    uint32_t count, left, crossed, put_back, reflected, next_id; /* next_id: where free ids are looked for */
     bool primed, started; /* first forces known; first step done (leap-frog) */
     sph_peaks peaks;
     double work[SPH_POWERS]; /* J, their integrals */
@@ -137,7 +146,7 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-#define SPH_MAX_PROGRAM 48u
+#define SPH_MAX_PROGRAM (SPH_WITH_FLOW ? 56u : 48u)
 
 struct sph_sim {
     sph_config cfg;
@@ -163,6 +172,7 @@ struct sph_sim {
     uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT]; /* of a thread's column sets: reals, and where each begins */
     uint32_t sets, groups, unplaced; /* particles that an addition found no room for */
     uint64_t setup_hash;
+    uint32_t flows, newcomers; /* newcomers: behind the last particle of buffer cur, in the step under way */
     bool has_adami, has_force_wall;
     bool mixed, own_sound; /* bodies are of several materials, or one that is not the configuration's; so is their c0 */
     bool table_valid;      /* cell[] belongs to buffer cur */
@@ -301,6 +311,11 @@ SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set
 }
 /* whether a set of ghosts has a density that goes by continuity */
 SPH_INLINE bool sph_is_compressible(const sph_set *s) { return SPH_WITH_WALL_GHOST && s->compressible; }
+/* the inflow or outflow that a set is, or null */
+SPH_INLINE const sph_flow_state *sph_flow_of(const sph_sim *sim, const sph_set *s)
+{
+    return SPH_WITH_FLOW && s->flow ? &sim->flow[s->flow - 1] : NULL;
+}
 SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */
@@ -442,6 +457,8 @@ SPH_INLINE sph_real sph_turn(const sph_sim *sim, uint32_t k, uint32_t i)
     return sph_turn_of(sim, sph_source_index(sim)[i], SPH_TURNS_VECTORS << k);
 }
 
+/* particles behind the last of buffer cur that this step brings in */
+SPH_INLINE uint32_t sph_newcomers(const sph_sim *sim) { return SPH_WITH_FLOW ? sim->newcomers : 0; }
 /* whether a wall group is gone, and how fast it moves along an axis (m/s), at the moment of the stage under way */
 SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)
 {

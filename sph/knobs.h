@@ -172,6 +172,9 @@
 #ifndef SPH_WITH_SPONGE
 #define SPH_WITH_SPONGE SPH_WITH_ALL
 #endif
+#ifndef SPH_WITH_FLOW
+#define SPH_WITH_FLOW SPH_WITH_ALL
+#endif
 #ifndef SPH_WITH_SHIFTING
 #define SPH_WITH_SHIFTING SPH_WITH_ALL
 #endif

@@ -65,6 +65,7 @@
     X(XSPH_STRAIN, SPH_WITH_SOLID && SPH_WITH_XSPH) /* strain rates from smoothed velocities */            \
     X(HELD, SPH_WITH_SOLID) /* sets that are held or pulled */                                             \
     X(SPONGE, 1) /* layers that take in waves */                                                           \
+    X(FLOW, 1) /* inflows and outflows */                                                                  \
     X(SHIFTING, 1) /* particle shifting */                                                                 \
     X(BODY_FORCE, 1) /* a body force beside gravity */                                                     \
     X(BOOKS, 1) /* work and dissipation */                                                                 \
