@@ -230,6 +230,7 @@ builds_test_options := 1d 2f 3f
 builds_test_arena   := $(BUILDS)
 builds_test_sponge  := 1f 1d 2f 2d 3f
 builds_test_flow    := $(BUILDS)
+builds_test_plates  := 1d 2f 2d 3f
 builds_test_quadrature := 1d 2f 2d 3f
 builds_test_grid    := $(BUILDS)
 builds_test_oracle  := $(BUILDS)

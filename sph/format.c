@@ -40,6 +40,7 @@ static const sph_member set_fields[] = {
     {"compressible", "1", M_BOOL, 1, AT(sph_set, compressible)},
     {"no_slip", "1", M_BOOL, 1, AT(sph_set, no_slip)},
     {"corner", "1", M_BOOL, 1, AT(sph_set, corner)},
+    {"side", "1", M_U8, 1, AT(sph_set, side)},
     {"mass", "kg", M_DOUBLE, 1, AT(sph_set, mass)},
     {"rho0", "kg/m^3", M_DOUBLE, 1, AT(sph_set, rho0)},
     {"sound_speed", "m/s", M_DOUBLE, 1, AT(sph_set, c0)},

@@ -40,6 +40,7 @@ typedef struct sph_set {
     bool compressible, no_slip, corner;
     uint8_t eos;
     uint8_t kin; /* matter: the first set of the same material: role, rest density, sound speed, equation of state */
+    uint8_t side; /* walls: SPH_BOTH_SIDES ... */
     uint8_t flow; /* 1 + the number of the inflow or outflow that it is; 0: none */
     double mass, rho0, c0;
     double strength;
@@ -173,7 +174,7 @@ struct sph_sim {
     uint32_t sets, groups, unplaced; /* particles that an addition found no room for */
     uint64_t setup_hash;
     uint32_t flows, newcomers; /* newcomers: behind the last particle of buffer cur, in the step under way */
-    bool has_adami, has_force_wall;
+    bool has_adami, has_force_wall, sided; /* sided: there are walls that act on one side only */
     bool mixed, own_sound; /* matter is of several materials, or of one that is not the configuration's; so is its c0 */
     bool table_valid;      /* cell[] belongs to buffer cur */
     /* step machine */
@@ -311,6 +312,20 @@ SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set
 }
 /* whether a set of ghosts has a density that goes by continuity */
 SPH_INLINE bool sph_is_compressible(const sph_set *s) { return SPH_WITH_WALL_GHOST && s->compressible; }
+/* the axes of a wall's face: its normal, then directions in its plane (sph_set.half) */
+SPH_INLINE void sph_frame_of(const sph_set *s, double (*axis)[SPH_DIM])
+{
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const uint32_t a = (k + 1) % SPH_DIM, b = (k + 2) % SPH_DIM, last = SPH_DIM - 1;
+        axis[0][k] = s->normal[k];
+        if (SPH_DIM == 2)
+            axis[last][k] = k ? s->normal[0] : -s->normal[last];
+        if (SPH_DIM == 3) {
+            axis[SPH_DIM > 1][k] = s->tangent[k];
+            axis[last][k] = s->normal[a] * s->tangent[b] - s->normal[b] * s->tangent[a];
+        }
+    }
+}
 /* the inflow or outflow that a set is, or null */
 SPH_INLINE const sph_flow_state *sph_flow_of(const sph_sim *sim, const sph_set *s)
 {

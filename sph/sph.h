@@ -594,12 +594,18 @@ enum {
     SPH_WALLS
 };
 
+/* On whom a wall of layers acts. FRONT: on what is in front of its face's plane; FACE: and between the face's edges. For
+   plates between two waters: as thick as the kernel's support, with layers of one group that face each way in the same
+   place, FRONT, and at its free end FACE, so that everybody feels the plate once. Faces keep their direction. */
+enum { SPH_BOTH_SIDES, SPH_FRONT, SPH_FACE, SPH_SIDES };
+
 typedef struct sph_wall {
     uint32_t kind;       /* SPH_WALL_... */
     bool compressible;   /* GHOST: density by continuity instead of held; refused where density is summed */
     bool no_slip;        /* GHOST, ADAMI: viscosity acts between fluid and wall */
     double strength;     /* see above; 0: the usual value (sound speed, spacing and gravity of the configuration) */
     uint32_t layers;     /* GHOST, ADAMI; 0: as many as the support needs */
+    uint32_t side;       /* SPH_BOTH_SIDES ...; another than that: GHOST (not compressible), ADAMI */
     sph_motion motion;   /* null: fixed */
     void *motion_ctx;
 } sph_wall;
