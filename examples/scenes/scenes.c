@@ -28,7 +28,9 @@
     X(block)                                                                                                \
     X(caldera)                                                                                              \
     X(solitary)                                                                                             \
-    X(weir)
+    X(weir)                                                                                                 \
+    X(caldera_wave)                                                                                         \
+    X(wave_train)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \

@@ -35,7 +35,7 @@ bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p)
         if (p->r > s->support * s->cfg.max_stretch && p->q < s->support)
             s->undecided = "a bond that is too long";
     }
-    if (p->q >= s->support)
+    if (p->q >= s->support || !o_acts_on(s, i, j) || !o_acts_on(s, j, i))
         return false;
     const double slope = o_weight_slope(kernel, p->q, h);
     p->g = p->q > 0 ? slope / p->q : 0;
