@@ -82,12 +82,13 @@ static sph_status add_plate(sph_sim *sim, const double *p, double x, double bott
 {
     const double lo[2] = {x, bottom}, hi[2] = {x + thickness(p), top};
     sph_wall w = scene_wall(p);
-    w.side = SPH_FRONT;
+    const bool layers = p[SCENE_WALL] >= SCENE_GHOST && !w.compressible;
+    w.side = layers ? SPH_FRONT : SPH_BOTH_SIDES;
     w.motion = gate ? lift : NULL;
     w.motion_ctx = gate ? (void *)p : NULL; // NOLINT: read only
     sph_status st = sph_add_wall_box(sim, &w, lo, hi, SPH_LOW(0), false, NULL);
     st = st ? st : sph_add_wall_box(sim, &w, lo, hi, SPH_HIGH(0), false, NULL);
-    w.side = SPH_FACE;
+    w.side = layers ? SPH_FACE : SPH_BOTH_SIDES;
     return st ? st : sph_add_wall_box(sim, &w, lo, hi, gate ? SPH_LOW(1) : SPH_HIGH(1), false, NULL);
 }
 

@@ -78,7 +78,7 @@ static void configure(const double *p, sph_config *c)
     c->hi[0] = jet[0];
     c->hi[1] = jet[1];
     c->max_particles = scene_capacity(scene_box_count(lo, water, dx) + scene_box_count(none, flight, dx) +
-                                      scene_wall_count(p, lo, plate, dx, SPH_LOW(1) | SPH_HIGH(0)));
+                                      scene_wall_count(p, lo, plate, dx, SPH_LOW(1) | SPH_HIGH(0)) + 2 * m * m / (dx * dx));
 }
 
 static sph_status build(sph_sim *sim, const double *p)
@@ -90,7 +90,12 @@ static sph_status build(sph_sim *sim, const double *p)
     sph_status st = sph_add_fluid(sim, NULL, &water);
     st = st ? st : sph_add_inflow(sim, water, &in, &fed);
     st = st ? st : sph_add_box(sim, water, stream, front, v);
-    return st ? st : scene_add_tank(sim, p, lo, plate, spacing(p), SPH_LOW(1) | SPH_HIGH(0));
+    /* the plate has no thickness for the jet, which passes over its layers: it acts on what is before it */
+    const double bed[2] = {scene_margin(p, spacing(p)), 1}, foot[2] = {from, 0};
+    sph_wall w = scene_wall(p);
+    st = st ? st : scene_add_tank(sim, p, lo, bed, spacing(p), SPH_LOW(1));
+    w.side = p[SCENE_WALL] >= SCENE_GHOST && !w.compressible ? SPH_FRONT : SPH_BOTH_SIDES;
+    return st ? st : sph_add_wall_box(sim, &w, foot, plate, SPH_HIGH(0), true, NULL);
 }
 
 static const char *const column[] = {"time_s", "angle_deg", "angle_of_velocity_deg", "angle_exact_deg", "jet_particles_-",
