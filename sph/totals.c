@@ -57,6 +57,6 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
     out->balance = out->kinetic + out->potential + out->internal + out->elastic + out->plastic_work - out->wall_work -
         out->body_work + out->dissipated + out->diffused + out->in_walls + out->in_bonds + out->unbalanced +
         out->absorbed + out->shifted + out->carried_off + out->released + out->put_back_loss + out->filtered +
-        out->damped;
+        out->damped - out->fed;
 }
 #endif

@@ -23,6 +23,7 @@ typedef struct bits_case {
     bool shifting;
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
+    bool flow;                            /* water comes in and goes out along the first axis */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -148,6 +149,12 @@ static const bits_case bits_cases[] = {
     {"large_eddies_no_slip", CASE_BASE, .shear = SPH_SMAGORINSKY_WICK, .face = SPH_MIRROR_NO_SLIP, .books = true},
     {"large_eddies_periodic", CASE_BASE, .shear = SPH_SMAGORINSKY, .face = SPH_PERIODIC,
      .integrator = SPH_LEAP_FROG},
+    /* inflows and outflows */
+    {"flow", CASE_BASE, .flow = true, .books = true},
+    {"flow_kick_drift_kick", CASE_BASE, .flow = true, .integrator = SPH_KICK_DRIFT_KICK, .diffusion = SPH_MOLTENI,
+     .shifting = true, .books = true},
+    {"flow_runge_kutta", CASE_BASE, .flow = true, .integrator = SPH_RUNGE_KUTTA, .xsph = true, .shepard = true,
+     .damped = true},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -234,6 +241,7 @@ static sph_config case_config(const bits_case *b)
     }
     case_sponge(&c, b->sponge);
     c.shifting = b->shifting ? 0.5 : 0;
+    c.max_flows = b->flow ? 2 : 0;
     c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
     return c;
 }
@@ -263,6 +271,27 @@ static sph_status case_water(sph_sim *sim, uint32_t set, uint32_t other, uint32_
     return SPH_OK;
 }
 
+/* an inflow in front of the water, through the low wall, and an outflow in its last spacings */
+static sph_status case_flow(sph_sim *sim, uint32_t water)
+{
+#if SPH_WITH_FLOW
+    sph_flow f = {.face = SPH_HIGH(0), .speed = 8};
+    uint32_t set;
+    for (int k = 0; k < SPH_DIM; k++)
+        f.hi[k] = CASE_N * CASE_DX;
+    f.lo[0] = -4 * CASE_DX;
+    f.hi[0] = 0;
+    sph_status st = sph_add_inflow(sim, water, &f, &set);
+    f.face = SPH_LOW(0);
+    f.hi[0] = CASE_N * CASE_DX;
+    f.lo[0] = f.hi[0] - 3 * CASE_DX;
+    return st ? st : sph_add_outflow(sim, water, &f, &set);
+#else
+    (void)sim, (void)water;
+    return SPH_BAD_ARGUMENT;
+#endif
+}
+
 static sph_status case_walls(sph_sim *sim, const bits_case *b)
 {
 #if SPH_HAS_WALLS
@@ -278,7 +307,7 @@ static sph_status case_walls(sph_sim *sim, const bits_case *b)
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         lo[k] = 0;
         hi[k] = CASE_N * CASE_DX;
-        if (k > 0 || b->face == SPH_OPEN)
+        if ((k > 0 || b->face == SPH_OPEN) && (k > 0 || !b->flow))
             faces |= SPH_LOW(k) | (k + 1 < SPH_DIM || SPH_DIM == 1 ? SPH_HIGH(k) : 0);
     }
     if (!faces)
@@ -337,6 +366,8 @@ static sph_status case_build(sph_sim *sim, const bits_case *b)
     if (!st && SPH_DIM > 1 && b->damage)
         st = sph_add_flaws(sim, set, &flaws);
 #endif
+    if (!st && b->flow)
+        st = case_flow(sim, set);
     if (!st && b->wall != CASE_NO_WALL)
         st = case_walls(sim, b);
     return st;

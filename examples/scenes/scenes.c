@@ -27,7 +27,10 @@
     X(chamber)                                                                                              \
     X(block)                                                                                                \
     X(caldera)                                                                                              \
-    X(solitary)
+    X(solitary)                                                                                             \
+    X(weir)                                                                                                 \
+    X(caldera_wave)                                                                                         \
+    X(wave_train)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \

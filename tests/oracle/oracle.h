@@ -37,6 +37,8 @@ static inline void o_plus(o_sum *a, double term) { o_add(a, term, fabs(term)); }
 typedef struct o_set {
     uint32_t role, kind, eos; /* SPH_ROLE_..., SPH_WALL_..., SPH_TAIT ... */
     bool compressible, no_slip;
+    uint32_t side;                            /* SPH_BOTH_SIDES ... */
+    double half[2];                           /* m: of its face, along tangents */
     double mass, rho0, c0, strength;          /* kg, kg/m^3, m/s; of walls as in sph_wall */
     double origin[3], normal[3], tangent[3];  /* of walls: a point of the face (m), into the fluid, along the face */
     double start[3], accel[3];                /* motion v t + a t^2/2 of what moves as it is told */
@@ -164,6 +166,8 @@ typedef struct o_pair {
     double volume;            /* m_j/rho_j */
 } o_pair;
 bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p); /* false: beyond the support */
+
+bool o_acts_on(o_scene *s, const o_particle *wall, const o_particle *body); /* sides.c: true for other pairs */
 
 /* ---- the modules, one file each; what each computes is at its head ---- */
 void o_sum_density(o_scene *s);                /* density.c */

@@ -184,6 +184,8 @@ static void draw_wall(plan *p, plan_wall *w, double *need)
     w->wall.kind = pick(SPH_WALLS);
     w->wall.compressible = chance(0.5);
     w->wall.no_slip = chance(0.6);
+    if (w->wall.kind >= SPH_WALL_GHOST && !w->wall.compressible && chance(0.4))
+        w->wall.side = SPH_FRONT + pick(2);
     w->wall.layers = SPH_DIM < 3 && chance(0.3) ? 0 : 1 + pick(SPH_DIM == 3 ? 2 : 3);
     w->wall.strength = chance(0.5) ? 0 : range(0.01, 5);
     w->inside = chance(0.6);
@@ -407,7 +409,8 @@ void plan_print(const plan *p)
         {"plain", "bonet_lok", "renormalised"},
         {"no solid", "updated", "corrected", "total"},
         {"tait", "tait_gray", "linear", "isothermal"},
-        {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"}};
+        {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"},
+        {"both sides", "front", "face"}};
     const sph_config *c = &p->cfg;
     printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, "
            "xsph %g, shifting %g, integrator %u, steps %u\n",
@@ -432,9 +435,9 @@ void plan_print(const plan *p)
                p->solid[k].sound_speed, p->solid[k].mass, p->solid[k].shear, p->solid[k].yield, p->solid[k].hardening,
                p->solid[k].body, p->solid[k].held);
     for (uint32_t k = 0; k < p->walls; k++)
-        printf("  wall %u: %s%s%s %s layers %u strength %g faces %u, from %g to %g, velocity %g\n", k,
+        printf("  wall %u: %s%s%s %s %s layers %u strength %g faces %u, from %g to %g, velocity %g\n", k,
                word[8][p->wall[k].wall.kind], p->wall[k].wall.compressible ? " compressible" : "",
-               p->wall[k].wall.no_slip ? " no slip" : "",
+               p->wall[k].wall.no_slip ? " no slip" : "", word[9][p->wall[k].wall.side],
                p->wall[k].flat ? "flat" : p->wall[k].inside ? "tank" : "block",
                p->wall[k].wall.layers, p->wall[k].wall.strength, p->wall[k].faces, p->wall[k].lo[0], p->wall[k].hi[0],
                p->wall[k].motion.v[0]);
