@@ -136,7 +136,7 @@ static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 static bool carries(const sph_sim *sim)
 {
     return sph_keeps_fields(sim) || sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) ||
-           (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
+           (sph_in_middle(sim) && sph_drifts(&sim->cfg));
 }
 static const sph_pass pass_carry = {"carry", sph_local_chunks, carry_chunk, NULL, carries};
 
@@ -237,7 +237,8 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 /* a pass of a module, or null where that was left out */
 #define MODULE(knob, pass) ((knob) ? &(pass) : NULL)
 
-#define SORT &sph_pass_count, &sph_pass_scatter, &pass_carry
+#define SORT &sph_pass_count, &sph_pass_scatter, &pass_carry, MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping)
+#define QUIET MODULE(SPH_WITH_DAMPER, sph_pass_damper)
 #define DENSITIES                                                                                                  \
     MODULE(SPH_WITH_SHEPARD, sph_pass_shepard), MODULE(SPH_WITH_MLS, sph_pass_mls),                                \
         MODULE(SPH_WITH_SUMMATION, sph_pass_summation),                                                            \
@@ -255,14 +256,16 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 
 /* what a step ends with */
 #define END(pass)                                                                                                  \
-    &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge), MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
+    &(pass), MODULE(SPH_WITH_DAMPER, sph_pass_damper_book), MODULE(SPH_HAS_XSPH_VELOCITY, sph_pass_evening),      \
+        MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping_end), MODULE(SPH_WITH_SPONGE, sph_pass_sponge),             \
+        MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
 
 typedef const sph_pass *const list[];
 #define WEIGHTS MODULE(SPH_HAS_QUADRATURE, sph_pass_cover), MODULE(SPH_HAS_QUADRATURE, sph_pass_quadrature)
-static list first_forces = {&pass_begin, SORT, WEIGHTS, DENSITIES, FORCES, &pass_prime};
-static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, END(pass_correct)};
-static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_kick)};
-static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
+static list first_forces = {&pass_begin, SORT, WEIGHTS, QUIET, DENSITIES, FORCES, &pass_prime};
+static list predictor_corrector = {&pass_begin, SORT, QUIET, DENSITIES, FORCES, END(pass_correct)};
+static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_kick)};
+static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),
                            SUM_AGAIN};

@@ -387,7 +387,7 @@ static void the_rate_of_a_linear_velocity_is_exact(void **state)
             const double off = off_rate(linear_cloud(&c, N, field, 0.15, 20), field);
             uint32_t whole = 0;
             for (uint32_t i = 0; i < places; i++)
-                whole += !(at[i].share < 1);
+                whole += at[i].share < 1 ? 0 : 1;
             assert_true(3 * whole > places && (SPH_DIM == 1 || whole < places));
             assert_true(off < ROUNDING);
             assert_int_equal(free_sims(NULL), 0);
@@ -502,7 +502,7 @@ static void momentum_stays_and_after_bonet_and_lok_angular_momentum(void **state
                 for (int k = 0; k < 3 && form == SPH_BONET_LOK; k++)
                     close_to(torque[k], 0, EPS * torque_size);
                 if (form == SPH_RENORMALISED && SPH_DIM > 1)
-                    assert_true(length(torque) > ROUNDING * torque_size);
+                    assert_true(length(torque) > 8 * EPS * torque_size);
                 assert_int_equal(free_sims(NULL), 0);
             }
 }
@@ -719,7 +719,7 @@ static void a_failed_step_leaves_no_trace(void **state)
 static void still_water_in_a_tank_stays_still(void **state)
 {
     enum { DEEP = 10 };
-    const double dx = 0.015, depth = DEEP * dx, lo[SPH_DIM] = {0}, end = 5;
+    const double dx = 0.015, depth = DEEP * dx, lo[SPH_DIM] = {0}, end = 5; /* s */
     double top[SPH_DIM], high[SPH_DIM], began;
     sph_config c = open_config(2 * depth, dx);
     sph_wall wall = sph_wall_default();

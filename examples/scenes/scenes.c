@@ -27,7 +27,8 @@
     X(chamber)                                                                                              \
     X(block)                                                                                                \
     X(caldera)                                                                                              \
-    X(solitary)
+    X(solitary)                                                                                             \
+    X(still_water)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \
