@@ -277,6 +277,11 @@ SPH_INLINE bool sph_has_any_mirrors(const sph_config *c)
     return sph_has_mirrors(c, 0) || (SPH_DIM > 1 && sph_has_mirrors(c, SPH_DIM > 1)) ||
            (SPH_DIM > 2 && sph_has_mirrors(c, SPH_DIM - 1));
 }
+SPH_INLINE bool sph_quiets(const sph_config *c) { return SPH_WITH_DAMPER && c->damper > 0; }
+SPH_INLINE bool sph_slows(const sph_config *c) { return SPH_WITH_DAMPING_RATE && c->damping_rate > 0; }
+SPH_INLINE bool sph_evens(const sph_config *c) { return SPH_HAS_XSPH_VELOCITY && c->xsph_velocity; }
+/* whether positions go with the XSPH velocity, too */
+SPH_INLINE bool sph_drifts(const sph_config *c) { return sph_uses_xsph(c) && !sph_evens(c); }
 SPH_INLINE bool sph_shifts(const sph_config *c) { return SPH_WITH_SHIFTING && c->shifting > 0; }
 SPH_INLINE bool sph_filters(const sph_config *c)
 {
@@ -332,6 +337,14 @@ SPH_INLINE const sph_flow_state *sph_flow_of(const sph_sim *sim, const sph_set *
     return SPH_WITH_FLOW && s->flow ? &sim->flow[s->flow - 1] : NULL;
 }
 SPH_INLINE bool sph_is_matter(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
+
+/* what positions drift with beside vel, along axis k; null in scenes where they do not */
+SPH_INLINE sph_real *sph_drift(const sph_sim *sim, const sph_buffer *b, uint32_t k)
+{
+    return sph_drifts(&sim->cfg) ? b->xsph[k] : NULL;
+}
+/* whether the sort under way is a step's first, from the current state; first forces are no step */
+SPH_INLINE bool sph_begins_step(const sph_sim *sim) { return sim->src == sim->cur && sim->now.primed; }
 
 /* ---- shared by files ---- */
 

@@ -24,6 +24,7 @@ typedef struct bits_case {
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
     bool flow;                            /* water comes in and goes out along the first axis */
+    bool quiet, slowed, evened;           /* acoustic damper; damping by a rate; XSPH in the velocity */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -155,6 +156,23 @@ static const bits_case bits_cases[] = {
      .shifting = true, .books = true},
     {"flow_runge_kutta", CASE_BASE, .flow = true, .integrator = SPH_RUNGE_KUTTA, .xsph = true, .shepard = true,
      .damped = true},
+    /* damper, damping by a rate, XSPH in the velocity */
+    {"damper", CASE_BASE, .quiet = true, .books = true},
+    {"damper_kick_drift_kick", CASE_BASE, .quiet = true, .integrator = SPH_KICK_DRIFT_KICK,
+     .diffusion = SPH_HYDROSTATIC, .floor = true, .books = true, .shifting = true},
+    {"damper_symmetry", CASE_BASE, .quiet = true, .face = SPH_SYMMETRY, .integrator = SPH_LEAP_FROG,
+     .gradient = SPH_BONET_LOK},
+    {"damper_weak", .kernel = SPH_QUINTIC, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .quiet = true,
+     .scheme = SPH_WEAK, .compressible = true, .slip_less = true, .books = true},
+    {"damping_rate", CASE_BASE, .slowed = true},
+    {"damping_rate_runge_kutta", CASE_BASE, .slowed = true, .integrator = SPH_RUNGE_KUTTA, .xsph = true,
+     .face = SPH_SYMMETRY},
+    {"damping_rate_solid", CASE_SOLID, .solid = SPH_UPDATED, .slowed = true, .held = true,
+     .integrator = SPH_KICK_DRIFT_KICK, .books = true},
+    {"damping_rate_leap_frog", CASE_BASE, .slowed = true, .integrator = SPH_LEAP_FROG, .moving = true},
+    {"xsph_velocity", CASE_BASE, .xsph = true, .evened = true, .books = true},
+    {"xsph_velocity_solid", CASE_SOLID, .solid = SPH_CORRECTED, .xsph = true, .evened = true, .held = true,
+     .integrator = SPH_KICK_DRIFT_KICK},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -242,6 +260,9 @@ static sph_config case_config(const bits_case *b)
     case_sponge(&c, b->sponge);
     c.shifting = b->shifting ? 0.5 : 0;
     c.max_flows = b->flow ? 2 : 0;
+    c.damper = b->quiet ? 0.2 : 0;
+    c.damping_rate = b->slowed ? 30 : 0;
+    c.xsph_velocity = b->evened;
     c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
     return c;
 }

@@ -30,7 +30,8 @@
     X(solitary)                                                                                             \
     X(weir)                                                                                                 \
     X(caldera_wave)                                                                                         \
-    X(wave_train)
+    X(wave_train)                                                                                           \
+    X(still_water)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \

@@ -80,6 +80,7 @@ typedef struct o_particle {
     double pull[3][3];         /* artificial stress R */
     double cover;              /* Q of the quadrature weights */
     o_sum phi;                 /* the weight; 0: 1 */
+    double quiet;              /* Pa, pressure of the damper */
     double way[3];             /* how its place moves: v + xsph, m/s */
     double beside[3];          /* xsph alone */
     /* results */
@@ -105,6 +106,7 @@ typedef struct o_scene {
     o_particle *all;           /* m: the particles and then the images */
     uint32_t room;
     double fastest;            /* m/s: of the bodies, when the last forces were made */
+    o_sum quieted, slowed, evened; /* J, what damper, damping by a rate and XSPH in the velocity took, likewise */
     o_sum shifted;             /* J, what shifting took since o_begin_steps */
     uint32_t left, crossed, put_back; /* particles since o_begin_steps, and their energies, J */
     o_sum carried_off, put_back_loss;
@@ -198,6 +200,11 @@ double o_largest_principal(const double (*sigma)[3], bool plane);
 void o_yield(o_scene *s);                                                                  /* yield.c */
 double o_grown_root(o_scene *s, const o_particle *i, const float *flaw, uint32_t flaws, double dt); /* damage.c */
 double o_sponge(const o_scene *s, const o_particle *i);                                    /* sponge.c: S */
+void o_quiet(const o_scene *s, o_particle *i, double rate); /* damper.c; rate: of the excess, 1/s */
+void o_book_quiet(o_scene *s, const o_particle *i, double middle, double dt);
+void o_slow(o_scene *s, double dt);
+void o_even(o_scene *s);
+bool o_drifts(const o_scene *s);               /* whether positions go with XSPH's velocity */
 void o_find_disorder(o_scene *s);              /* shifting.c */
 void o_shift(o_scene *s, double dt);
 void o_turn_round(o_particle *p, int k, double plane, bool tensors); /* steps.c: a mirror across axis k at `plane` */

@@ -363,6 +363,17 @@ static void draw_the_going(plan *p)
     }
 }
 
+/* damper, damping by a rate, XSPH in the velocity; last, so that they change nothing before */
+static void draw_small(plan *p)
+{
+    sph_config *c = &p->cfg;
+    const bool quiets = !p->still_step && c->solid == SPH_NO_SOLID && c->integrator < SPH_RUNGE_KUTTA &&
+                        c->density == SPH_CONTINUITY && c->scheme != SPH_STANDARD_WICK && c->scheme != SPH_WEAK_WICK;
+    c->damper = quiets && chance(0.3) ? range(0.05, 1) : 0;
+    c->damping_rate = !p->still_step && chance(0.15) ? range(0.01, 2) * c->sound_speed / c->spacing : 0;
+    c->xsph_velocity = c->xsph > 0 && !c->xsph_strain && !p->still_step && chance(0.4);
+}
+
 void plan_draw(plan *p, uint64_t seed)
 {
     memset(p, 0, sizeof *p);
@@ -396,6 +407,7 @@ void plan_draw(plan *p, uint64_t seed)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
     draw_tables(p);
     draw_the_going(p);
+    draw_small(p);
 }
 
 void plan_print(const plan *p)
@@ -413,10 +425,11 @@ void plan_print(const plan *p)
         {"both sides", "front", "face"}};
     const sph_config *c = &p->cfg;
     printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, "
-           "xsph %g, shifting %g, integrator %u, steps %u\n",
+           "xsph %g%s, shifting %g, damper %g, rate %g, integrator %u, steps %u\n",
            (unsigned long long)p->seed, word[1][c->kernel], c->smoothing_length, c->spacing, c->rho0, c->sound_speed,
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
-           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
+           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph,
+           c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
     printf("  shear %u, cs %g, ci %g, filter %u\n", c->shear, c->smagorinsky, c->subgrid, c->filter);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
