@@ -27,7 +27,13 @@
     X(chamber)                                                                                              \
     X(block)                                                                                                \
     X(caldera)                                                                                              \
-    X(solitary)
+    X(solitary)                                                                                             \
+    X(piston)                                                                                               \
+    X(bore)                                                                                                 \
+    X(collision)                                                                                            \
+    X(breaking)                                                                                             \
+    X(shoaling)                                                                                             \
+    X(flap)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \
