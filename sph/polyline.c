@@ -99,7 +99,7 @@ static sph_status add_point(sph_sim *sim, const polyline *b, uint32_t set, uint3
     return sph_setup_append(sim, set, x, NULL, 0);
 }
 
-/* the particles of piece k in a layer, without those on its mitres; rows of boundary force have them on free ends too */
+/* the particles of piece k in a layer, without those on its mitres; rows of boundary force have some on free ends */
 static sph_status add_between(sph_sim *sim, const polyline *b, uint32_t set, uint32_t k, double d)
 {
     const double length = piece_behind(b, k, d), dx = sim->cfg.spacing;
