@@ -79,6 +79,7 @@
     X(TOTALS, 1) /* sph_get_totals */                                                                      \
     X(PROBES, 1) /* sph_probe, sph_probe_line, gauges, sph_extent */                                       \
     X(INSPECT, 1) /* sph_inspect */                                                                        \
+    X(POLYLINES, SPH_DIM == 2) /* sph_add_wall_polyline */ \
     X(SHAPES, 1) /* rings, polygons, shapes with holes */                                                  \
     X(FIELDS, 1) /* sph_apply_field, sph_apply_hydrostatic */                                              \
     X(DUMP, 1) /* sph_dump */                                                                              \

@@ -444,6 +444,30 @@ typedef struct sph_table {
 #define sph_motion_table SPH_NAME(motion_table)
 void sph_motion_table(void *ctx, double t, double *displacement, double *velocity);
 
+/* A motion given by velocities, linear between rows, from rest before the first row (a jump to v[0] if that is not 0);
+   after the last it goes on with the last one. The displacement is their integral, exactly. Pass sph_motion_programme
+   and a pointer to this. Times must increase; without rows, or with an axis that there is not, there is rest. */
+typedef struct sph_programme {
+    uint32_t rows, axis;
+    const double *t, *v; /* s, m/s */
+} sph_programme;
+#define sph_motion_programme SPH_NAME(motion_programme)
+void sph_motion_programme(void *ctx, double t, double *displacement, double *velocity);
+
+/* A motion given as a table through which goes a cubic spline, so that velocity and acceleration are continuous
+   between its ends; rest before the first row and after the last, where the velocity is 0. Pass sph_motion_spline and a
+   pointer to this. sph_spline_make fills `bend` (2 rows long: accelerations at the rows, and room to find them); false:
+   fewer than two rows, times that do not increase, or what is not finite or beyond 1e15. */
+typedef struct sph_spline {
+    uint32_t rows, axis;
+    const double *t, *x; /* s, m */
+    const double *bend;  /* what sph_spline_make has found; null: rest */
+} sph_spline;
+#define sph_spline_make SPH_NAME(spline_make)
+bool sph_spline_make(const sph_spline *spline, double *bend);
+#define sph_motion_spline SPH_NAME(motion_spline)
+void sph_motion_spline(void *ctx, double t, double *displacement, double *velocity);
+
 /* A motion from rest at time 0: displacement v t + a t^2/2 on each axis. Pass sph_motion_steady and a pointer to
    this. */
 typedef struct sph_steady {
@@ -641,6 +665,14 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
 /* A straight wall from a to b; the fluid is on its left. */
 #define sph_add_wall_segment SPH_NAME(add_wall_segment)
 sph_status sph_add_wall_segment(sph_sim *sim, const sph_wall *wall, const double *a, const double *b, uint32_t *group);
+/* A bed: straight walls through n points (m), one group; the fluid is on the left of the way along them. Layers run on
+   round the corners, mitred there, with a particle on each mitre: none is doubled and none is left out, and a corner of
+   a box has the particles of sph_add_wall_box. Uses 2 n - 3 sets. Refused: fewer than two points, turns of more than a
+   right angle, and pieces so short that a layer would fold at their corners or an end be shorter than a spacing (each
+   layer wants half a spacing and more between two corners). */
+#define sph_add_wall_polyline SPH_NAME(add_wall_polyline)
+sph_status sph_add_wall_polyline(sph_sim *sim, const sph_wall *wall, const double (*points)[SPH_DIM], uint32_t n,
+                                 uint32_t *group);
 #endif
 #if SPH_DIM == 3
 /* A flat wall: the parallelogram origin + s e1 + t e2; the fluid is on the side of e1 x e2. */
