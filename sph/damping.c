@@ -32,7 +32,7 @@ static void damping_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set != SPH_DEAD && sph_is_body(&sim->set[set]))
+        if (set != SPH_DEAD && sph_is_matter(&sim->set[set]))
             sum += free_energy(sim, &sim->buf[sim->src], b->id[0][i], &sim->set[set]);
     }
     sim->slowing[chunk] = sum * (1 - factor * factor);
@@ -57,7 +57,7 @@ static void damping_end_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set == SPH_DEAD || !sph_is_body(&sim->set[set]))
+        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]))
             continue;
         const uint32_t held = sph_held(sim, &sim->set[set]);
         sum += free_energy(sim, b, i, &sim->set[set]);

@@ -55,7 +55,7 @@ sph_status sph_layers_check(sph_sim *sim, const sph_wall *w, const char *call)
         return sph_setup_bad(sim, "wall.motion", "null: moving walls were left out (modules.h)", 1);
     if (!(w->strength >= 0 && w->strength < 1e30))
         return sph_setup_bad(sim, "wall.strength", ">= 0", w->strength);
-    if (w->side >= SPH_SIDES || (w->side && (!SPH_HAS_SIDES || !layered(w) || w->compressible)))
+    if (w->side >= SPH_SIDES || (w->side && (!SPH_HAS_SIDES || !sph_layers_wanted(w) || w->compressible)))
         return sph_setup_bad(sim, "wall.side", SPH_HAS_SIDES ? "SPH_BOTH_SIDES, or of GHOST (not compressible) and ADAMI "
                              "SPH_FRONT, SPH_FACE" : "SPH_BOTH_SIDES: others were left out (modules.h)", w->side);
     if (w->layers > 64)

@@ -160,8 +160,6 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
     }
     o->region = s->role != SPH_ROLE_FLUID && s->role != SPH_ROLE_SOLID && !s->corner;
     o->thick = o->region ? s->thick : 0;
-    for (int a = 0; a < SPH_DIM - 1 && o->region; a++)
-        o->half[a] = s->half[a];
     if (s->role != SPH_ROLE_SOLID)
         return;
     const sph_material *m = &sim->material[k];

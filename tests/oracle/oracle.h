@@ -38,7 +38,7 @@ typedef struct o_set {
     uint32_t role, kind, eos; /* SPH_ROLE_..., SPH_WALL_..., SPH_TAIT ... */
     bool compressible, no_slip;
     uint32_t side;                            /* SPH_BOTH_SIDES ... */
-    double half[2];                           /* m: of its face, along tangents */
+    double half[2];                           /* m: of walls, to both sides of the middle of the face, along tangents */
     double mass, rho0, c0, strength;          /* kg, kg/m^3, m/s; of walls as in sph_wall */
     double origin[3], normal[3], tangent[3];  /* of walls: a point of the face (m), into the fluid, along the face */
     double start[3], accel[3];                /* motion v t + a t^2/2 of what moves as it is told */
@@ -49,7 +49,7 @@ typedef struct o_set {
     uint32_t body, held;
     bool flat;
     bool region;                              /* of walls: whether there is one behind the face, */
-    double thick, half[2];                    /* so thick, and to both sides of its middle so wide, m */
+    double thick;                             /* so thick, m */
 } o_set;
 
 typedef struct o_particle {
@@ -220,7 +220,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
 
 /* ---- condition.c ---- */
 typedef struct o_spread { /* what comes of an error at the beginning; infinite: anything */
-    double x, v, d, dev, plastic, root, shifted;
+    double x, v, d, dev, plastic, root, shifted, quieted, slowed, evened;
 } o_spread;
 void o_keep(o_scene *kept, const o_scene *s); /* a copy without images, in memory of its own */
 o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps, double dt,
