@@ -62,8 +62,8 @@ static sph_status check_energy(const sph_config *c, sph_report *r)
     const bool kicks = SPH_IS(c->integrator, KICK_DRIFT_KICK) || SPH_IS(c->integrator, LEAP_FROG);
     if (SPH_IS(c->eos, IDEAL_GAS) && !c->energy)
         return sph_refuse(r, "energy", "true where eos is SPH_IDEAL_GAS", 0);
-    if (c->energy && sph_has_solids(c))
-        return sph_refuse(r, "energy", "false in scenes with solids", 1);
+    if (c->energy && (sph_has_solids(c) || (SPH_WITH_DAMPER && c->damper > 0) || (SPH_WITH_FLOW && c->max_flows > 0)))
+        return sph_refuse(r, "energy", "false in scenes with solids, the damper, inflows or outflows", 1);
     if (c->energy && sph_sums_density(c) && (kicks || c->eos != SPH_IDEAL_GAS))
         return sph_refuse(r, "density", "SPH_CONTINUITY with the energy equation, but for SPH_IDEAL_GAS in the "
                                       "predictor-corrector and Runge-Kutta", c->density);
@@ -108,6 +108,9 @@ sph_status sph_check_config(const sph_config *c, sph_grid *grid, size_t *bytes, 
         (st = check_domain(c, r)) != SPH_OK || (st = check_fluids(c, r)) != SPH_OK ||
         (SPH_WITH_ENERGY && (st = check_energy(c, r)) != SPH_OK) ||
         (SPH_WITH_SPONGE && (st = sph_check_sponge(c, r)) != SPH_OK) ||
+        (SPH_WITH_FLOW && (st = sph_check_flows(c, r)) != SPH_OK) ||
+        (SPH_WITH_DAMPER && (st = sph_check_damper(c, r)) != SPH_OK) ||
+        (SPH_HAS_XSPH_VELOCITY && (st = sph_check_evening(c, r)) != SPH_OK) ||
         (SPH_WITH_SHIFTING && (st = sph_check_shifting(c, r)) != SPH_OK) ||
         (st = check_solids(c, r)) != SPH_OK || (st = sph_make_grid(c, grid, r)) != SPH_OK)
         return st;

@@ -70,8 +70,8 @@ static sph_status build(sph_sim *sim, const double *p)
 
 static double end(const double *p) { return p[DURATION]; }
 
-/* How many of the fluid stand within `reach` of particle i on one side of it in the arrays, at most 3; these are in order
-   of slabs of cells along y, so that beyond `far` none is to come. */
+/* How many of the fluid stand within `reach` of particle i on one side of it in the arrays, at most 3; these are in
+   order of slabs of cells along y, so that beyond `far` none is to come. */
 static uint32_t neighbours(const sph_sim *sim, const sph_particle *a, uint32_t i, int way, double reach, double far)
 {
     uint32_t near = 0;

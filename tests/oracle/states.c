@@ -60,6 +60,9 @@ static void refresh(o_scene *s, o_particle *p)
     p->p = o_pressure(set->eos, set->rho0, set->c0, p->d);
     if (s->cfg.pressure_floor && !solid)
         p->p = o_max(p->p, 0);
+    p->p += p->quiet;
+    if (s->cfg.pressure_floor && !solid)
+        p->p = o_max(p->p, 0);
     if (!(p->d > -1)) /* between two stages of a step: the kernel's polynomial goes on, the power does not */
         s->undecided = "a density below 0 within a step";
     p->c = set->c0;
