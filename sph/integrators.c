@@ -283,6 +283,7 @@ static list runge_kutta = {BEGIN,              SORT, DENSITIES, FORCES, &pass_se
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),
                            SUM_AGAIN};
 enum { SUMMING = sizeof((const sph_pass *const[]){SUM_AGAIN}) / sizeof(const sph_pass *) };
+_Static_assert(sizeof runge_kutta / sizeof *runge_kutta <= SPH_MAX_PROGRAM, "room for the longest list");
 
 /* ---- the table ---- */
 
