@@ -429,7 +429,7 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
 {
     const uint32_t by = s->cfg.integrator;
-    o_slow(s, dt);
+    o_slow_first(s, dt, last);
     remember_state(s);
     foresee_damage(s, dt, flaws_of);
     if (by == SPH_PREDICTOR_CORRECTOR)
@@ -439,7 +439,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     else
         runge_kutta(s, number, dt);
     o_even(s);
-    o_slow(s, dt);
+    o_slow_last(s, dt);
     o_refresh(s);
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
