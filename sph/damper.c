@@ -38,13 +38,9 @@ sph_status sph_check_damper(const sph_config *c, sph_report *r)
 }
 
 /* q/rho0 of a particle, m^2/s^2: drho in 1/s */
-static double quiet_press(const sph_sim *sim, const sph_set *set, double excess, double drho)
+static double quiet_press(const sph_sim *sim, const sph_set *set, double drho)
 {
-    const double q = sim->cfg.damper * sim->cfg.smoothing_length * set->c0 * drho;
-    if (!sph_has_floor(sim, set) || !(q < 0))
-        return q;
-    const double most = -sph_pressure(sim, set, excess) / set->rho0;
-    return q < most ? most : q;
+    return sim->cfg.damper * sim->cfg.smoothing_length * set->c0 * drho;
 }
 
 /* ---- the pass before the forces ---- */
@@ -73,7 +69,7 @@ static void damper_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
         const uint8_t set = b->set[0][i];
         const bool body = set != SPH_DEAD && sph_is_body(&sim->set[set]);
         const sph_set *s = &sim->set[body ? set : 0];
-        const double q = body ? quiet_press(sim, s, (double)b->rho[0][i], rate_at_end(sim, i)) : 0;
+        const double q = body ? quiet_press(sim, s, rate_at_end(sim, i)) : 0;
         sim->damper_press[i] = (sph_real)(q * s->rho0);
     }
     t->work += span.last - span.first;
@@ -82,6 +78,18 @@ static bool damps_sound(const sph_sim *sim) { return sph_quiets(&sim->cfg); }
 const sph_pass sph_pass_damper = {"damper", sph_local_chunks, damper_chunk, NULL, damps_sound};
 
 /* ---- the book: what the step took ---- */
+
+/* q D/rho^2 of a particle of relative density excess d, W/kg; drho of the step's middle, 1/s. With the floor p + q is at
+   least 0 */
+static double quiet_power(const sph_sim *sim, const sph_set *set, double d, double drho)
+{
+    double q = quiet_press(sim, set, drho);
+    if (sph_has_floor(sim, set) && q < 0) {
+        const double most = -sph_pressure(sim, set, d) / set->rho0;
+        q = q < most ? most : q;
+    }
+    return q * drho / ((1 + d) * (1 + d));
+}
 
 static void damper_book_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
@@ -93,8 +101,7 @@ static void damper_book_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
         if (set == SPH_DEAD || !sph_is_body(&sim->set[set]))
             continue;
         const double d = (double)b->rho[0][i], rise = sph_foresees(&sim->cfg) ? (double)b->rise[0][i] : 0;
-        const double drho = (double)b->drho[0][i] - rise; /* of the step's middle */
-        sum += sim->set[set].mass * quiet_press(sim, &sim->set[set], d, drho) * drho / ((1 + d) * (1 + d));
+        sum += sim->set[set].mass * quiet_power(sim, &sim->set[set], d, (double)b->drho[0][i] - rise);
     }
     sim->damper_loss[chunk] = sum;
     t->work += span.last - span.first;

@@ -137,7 +137,7 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-#define SPH_MAX_PROGRAM 48u
+#define SPH_MAX_PROGRAM 64u
 
 struct sph_sim {
     sph_config cfg;

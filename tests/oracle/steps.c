@@ -341,6 +341,8 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
     tell(s, s->time + dt, dt);
     filter(s, s->time, s->time + half(dt), false);
     go(s, dt, dt * kick, kick, half(dt));
+    for (uint32_t i = 0; i < s->n; i++) /* the damper acts in sums of forces */
+        s->own[i].quiet = 0;
     for (uint32_t i = 0; i < s->n; i++) /* rates: places of the middle */
         for (int k = 0; k < SPH_DIM; k++)
             s->own[i].x[k] -= half(dt) * (s->own[i].v[k] + turned(&was[i], k, was[i].u[k]));
