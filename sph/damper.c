@@ -6,13 +6,13 @@
 
    A bulk viscosity theta h c0 between particles: sound of wave number k dies at the rate theta h c0 k^2/2, and flow
    without divergence feels nothing. It conserves what the pressure conserves. Its power is q D/rho^2 a unit of mass,
-   never below 0 without the floor: kinetic energy gives (p + q)/rho^2 of continuity's part of D, density takes p/rho^2 of
-   all of D, and diffusion books (p + q)/rho^2 of its own part.
+   never below 0 without the floor: kinetic energy gives (p + q)/rho^2 of continuity's part of D, density takes p/rho^2
+   of all of D, and diffusion books (p + q)/rho^2 of its own part.
 
-   When: D of the forces' own time, to second order, from rates that stand already. Kick-drift-kick and leap-frog have D of
-   this step's middle and of the last one's, the predictor-corrector of the step's beginning and what it rose by. The
-   first forces of a scene know of no D: of second order from a start without any. What it takes in a step is of the
-   middle. Runge-Kutta has no D behind it, a summed density none at all.
+   When: D of the forces' own time, to second order, from rates that stand already. Kick-drift-kick and leap-frog have
+   D of this step's middle and of the last one's, the predictor-corrector of the step's beginning and what it rose by.
+   The first forces of a scene know of no D: of second order from a start without any. What it takes in a step is of
+   the middle. Runge-Kutta has no D behind it, a summed density none at all.
 
    Arrays: damper_press (a real a particle), damper_loss (a double for each chunk of a local pass). Cost: two local
    passes; the equation of state once more. It shortens what a step may be (factors.c). */
@@ -79,8 +79,8 @@ const sph_pass sph_pass_damper = {"damper", sph_local_chunks, damper_chunk, NULL
 
 /* ---- the book: what the step took ---- */
 
-/* q D/rho^2 of a particle of relative density excess d, W/kg; drho of the step's middle, 1/s. With the floor p + q is at
-   least 0 */
+/* q D/rho^2 of a particle of relative density excess d, W/kg; drho of the step's middle, 1/s. With the floor p + q is
+   at least 0 */
 static double quiet_power(const sph_sim *sim, const sph_set *set, double d, double drho)
 {
     double q = quiet_press(sim, set, drho);

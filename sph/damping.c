@@ -3,11 +3,12 @@
    the result depends on the step): v' = v exp(-r dt), exact, the same in every integrator.
 
    When: half of it before all else of the step, with which velocities go into the sort (move.c), half when all else is
-   done: exp(-r dt/2) A exp(-r dt/2), of second order, any dt. The leap-frog's velocities are of middles, so there half of
-   it lies before the kick and half behind, v' = e (e v + dt a) with e = exp(-r dt/2), and before the sort what brings them
-   from half of the last step ahead to half of this. Axes along which a set is held, and walls, are not damped.
+   done: exp(-r dt/2) A exp(-r dt/2), of second order, any dt. The leap-frog's velocities are of middles, so there half
+   of it lies before the kick and half behind, v' = e (e v + dt a) with e = exp(-r dt/2), and before the sort what
+   brings them from half of the last step ahead to half of this. Axes along which a set is held, and walls, are not
+   damped.
 
-   Array: slowing (a double for each chunk of a local pass). Cost: two local passes; a product a component in the sort. */
+   Array: slowing (a double for each chunk of a local pass). Cost: two local passes; a product a component in sorts. */
 #include "dmath.h"
 #include "motion.h"
 #include "arithmetic.h"

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* evening.c: XSPH in the velocity itself, not only in what moves the positions (Powell 2012 eq 2.71): once a step, at its
-   end, v_i += u_i with the sums u of the step's last forces (xsph.h, whose weights they have). The weights m_j/rho_mean
-   are those of pairs, so momentum stays to rounding; what it takes of the kinetic energy is the book `evened`.
-   Positions then go with v alone. By steps, as printed: so what it takes in a time depends on the step. Not along axes on
-   which a set is held.
+/* evening.c: XSPH in the velocity itself, not only in what moves the positions (Powell 2012 eq 2.71): once a step, at
+   its end, v_i += u_i with the sums u of the step's last forces (xsph.h, whose weights they have). The weights
+   m_j/rho_mean are those of pairs, so momentum stays to rounding; what it takes of the kinetic energy is the book
+   `evened`. Positions then go with v alone. By steps, as printed: so what it takes in a time depends on the step. Not
+   along axes on which a set is held.
 
    Array: evening (a double for each chunk of a local pass). Cost: that of XSPH, and a local pass. */
 #include "motion.h"

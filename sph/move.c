@@ -15,7 +15,7 @@ sph_real sph_slowed_by(const sph_sim *sim)
 {
     if (!SPH_WITH_DAMPING_RATE || !(sim->cfg.damping_rate > 0) || !sph_begins_step(sim))
         return 1;
-    const double last = SPH_IS(sim->cfg.integrator, LEAP_FROG) ? sim->now.dt_last : 0; /* damping.c */
+    const double last = SPH_HAS_RATES_FIRST && sim->stage->resumes ? sim->now.dt_last : 0; /* damping.c */
     return (sph_real)sph_exp(-0.5 * sim->cfg.damping_rate * (sim->dt - last));
 }
 

@@ -140,7 +140,7 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
 #define SPH_FAST_FN(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                           \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t, sph_real least)                               \
     {                                                                                                              \
-        const tile_choice own = {SPH_##eos_, true, floor_, inv_rho_, press_, !(press_), wall_, false, false, false};      \
+        const tile_choice own = {SPH_##eos_, true, floor_, inv_rho_, press_, !(press_), wall_, false, false, false}; \
         load_columns(r, t, least, copied, own);                                                                    \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* test_damper.c: the acoustic damper against what a bulk viscosity does to a standing sound wave, and to a flow without
-   divergence; damping by a rate against its exponential; XSPH in the velocity against the same step without it. Orders in
-   time, books, refusals, and that slices and restarts change no bit. */
+   divergence; damping by a rate against its exponential; XSPH in the velocity against the same step without it. Orders
+   in time, books, refusals, and that slices and restarts change no bit. */
 #include "testing.h"
 
 #include "sph/internal.h"
@@ -87,8 +87,8 @@ static double lattice_number(const sph_config *c)
 
 /* ---- the damper ---- */
 
-/* Amplitudes die as exp(-theta h c k^2 t/2): after six periods the energy is that squared. It swings by the damping over
-   the frequency besides, 0.4 theta h k of what is left. */
+/* Amplitudes die as exp(-theta h c k^2 t/2): after six periods the energy is that squared. It swings by the damping
+   over the frequency besides, 0.4 theta h k of what is left. */
 static void sound_dies_as_a_bulk_viscosity_says(void **state)
 {
     (void)state;

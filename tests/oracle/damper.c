@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* damper.c: the acoustic damper, damping by a rate, XSPH in the velocity (sph.h; Powell 2012 eq 2.71).
-     damper        p + theta h c D for p, D = d(rho)/dt at the time of the forces, at least 0 with the floor. D of that time:
+     damper        p + theta h c D for p, D = d(rho)/dt at the time of the forces, at least 0 with the floor. D is
                    r + (r - r_o) dt/(dt + dt_o) from the rates of this step's middle and the one's before, of the
-                   beginning r + 2 e min(dt/dt_o, 2) where e is half of what r rose by in the last step. The first forces
-                   know of none. Taken in a step: dt m q D/rho^2 of its middle.
+                   beginning r + 2 e min(dt/dt_o, 2) where e is half of what r rose by in the last step. The first
+                   forces know of none. Taken in a step: dt m q D/rho^2 of its middle.
      damping_rate  v exp(-r dt/2) at the beginning of a step and at its end; leap-frog, whose velocities are ahead by half
                    a step: v exp(-r (dt - dt_o)/2), and at the end e (e v + dt a), e = exp(-r dt/2), for v + dt a
      xsph_velocity v + u at the end of a step

@@ -12,10 +12,10 @@
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
    where its motion says at each of these times. Damage grows with them, by what the strain was at the step's beginning.
-   At the end of a step XSPH in the velocity, damping by a rate, sponges, then shifting. Damper: damper.c. Faces: periodic ones let in on the other side; a plane of symmetry
-   takes the mirrored particle instead, with all that it has: place, reference position, velocity, stress, and their
-   rates. A no-slip mirror throws it back: what has a direction turns
-   along its normal, but the shear stress on the plane, which goes on through it, stays. */
+   At the end of a step XSPH in the velocity, damping by a rate, sponges, then shifting. Damper: damper.c. Faces:
+   periodic ones let in on the other side; a plane of symmetry takes the mirrored particle instead, with all that it
+   has: place, reference position, velocity, stress, and their rates. A no-slip mirror throws it back: what has a
+   direction turns along its normal, but the shear stress on the plane, which goes on through it, stays. */
 #include <stdlib.h>
 #include <string.h>
 
