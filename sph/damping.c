@@ -35,7 +35,7 @@ static void damping_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set != SPH_DEAD && sph_is_body(&sim->set[set]))
+        if (set != SPH_DEAD && sph_is_matter(&sim->set[set]))
             sum += free_energy(sim, &sim->buf[sim->src], b->id[0][i], &sim->set[set]);
     }
     sim->slowing[chunk] = sum * (1 - factor * factor);
@@ -73,7 +73,7 @@ static void damping_end_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_real rest = (sph_real)(leaps ? (half - half * half) * sim->dt : 0);
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++)
-        if (sets[i] != SPH_DEAD && sph_is_body(&sim->set[sets[i]]))
+        if (sets[i] != SPH_DEAD && sph_is_matter(&sim->set[sets[i]]))
             sum += slow(sim, &sim->set[sets[i]], i, factor, rest);
     sim->slowing[chunk] = sum;
     t->work += span.last - span.first;
