@@ -183,7 +183,8 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
    density, and the pressure force that does the same work (Bonet & Lok 1999; schemes STANDARD and WEAK); momentum,
    angular momentum and energy stay. RENORMALISED: (B_i + B_j)/2 x_ij g in continuity, pressure and artificial
    viscosity (Wickramarachchi 2009 eqs 4.8-4.20); momentum and energy stay. Both cost a sweep and SPH_DIM (SPH_DIM +
-   1)/2 reals a particle; where neighbours do not span space the plain gradient is taken (gradient.c). */
+   1)/2 reals a particle; beside a surface a share of the correction is taken, where neighbours do not span space none
+   (gradient.c). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* How the density is made anew every shepard_every steps, or each time that filter_period (s) has passed (not beside
