@@ -64,8 +64,8 @@ int main(int argc, char **argv)
     unsigned long long done = 0;
     tank t;
     if (argc != 4) {
-        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting|damper N STEPS"
-                        "\n");
+        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting|damper "
+                        "N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);

@@ -4,8 +4,8 @@
                    r + (r - r_o) dt/(dt + dt_o) from the rates of this step's middle and the one's before, of the
                    beginning r + 2 e min(dt/dt_o, 2) where e is half of what r rose by in the last step. The first
                    forces know of none. Taken in a step: dt m q D/rho^2 of its middle.
-     damping_rate  v exp(-r dt/2) at the beginning of a step and at its end; leap-frog, whose velocities are ahead by half
-                   a step: v exp(-r (dt - dt_o)/2), and at the end e (e v + dt a), e = exp(-r dt/2), for v + dt a
+     damping_rate  v exp(-r dt/2) at the beginning of a step and at its end; leap-frog, whose velocities are ahead by
+                   half a step: v exp(-r (dt - dt_o)/2), and at the end e (e v + dt a), e = exp(-r dt/2), for v + dt a
      xsph_velocity v + u at the end of a step
    Their books are what the kinetic energy loses there. */
 #include "oracle.h"
