@@ -67,7 +67,7 @@ static void damper_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_buffer *b = &sim->buf[sim->dst];
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        const bool body = set != SPH_DEAD && sph_is_matter(&sim->set[set]);
+        const bool body = set != SPH_DEAD && sph_is_matter(&sim->set[set]) && !sph_flow_of(sim, &sim->set[set]);
         const sph_set *s = &sim->set[body ? set : 0];
         const double q = body ? quiet_press(sim, s, rate_at_end(sim, i)) : 0;
         sim->damper_press[i] = (sph_real)(q * s->rho0);
@@ -98,7 +98,7 @@ static void damper_book_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]))
+        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]) || sph_flow_of(sim, &sim->set[set]))
             continue;
         const double d = (double)b->rho[0][i], rise = sph_foresees(&sim->cfg) ? (double)b->rise[0][i] : 0;
         sum += sim->set[set].mass * quiet_power(sim, &sim->set[set], d, (double)b->drho[0][i] - rise);

@@ -5,7 +5,7 @@
    When: half of it before all else of the step, with which velocities go into the sort (move.c), half when all else is
    done: exp(-r dt/2) A exp(-r dt/2), of second order, any dt. The leap-frog's velocities are of middles, so there half
    of it lies before the kick and half behind, v' = e (e v + dt a) with e = exp(-r dt/2), and before the sort what
-   brings them from half of the last step ahead to half of this. Axes along which a set is held, and walls, are not
+   brings them from half of the last step ahead to half of this. Axes along which a set is held, flows and walls are not
    damped.
 
    Array: slowing (a double for each chunk of a local pass). Cost: two local passes; a product a component in sorts. */
@@ -26,6 +26,12 @@ static double free_energy(const sph_sim *sim, const sph_buffer *b, uint32_t i, c
     return 0.5 * set->mass * v2;
 }
 
+/* whether a set's velocities are its own */
+static bool is_free(const sph_sim *sim, uint8_t set)
+{
+    return set != SPH_DEAD && sph_is_matter(&sim->set[set]) && !sph_flow_of(sim, &sim->set[set]);
+}
+
 /* what the factor before the sort took */
 static void damping_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
@@ -35,7 +41,7 @@ static void damping_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set != SPH_DEAD && sph_is_matter(&sim->set[set]))
+        if (is_free(sim, set))
             sum += free_energy(sim, &sim->buf[sim->src], b->id[0][i], &sim->set[set]);
     }
     sim->slowing[chunk] = sum * (1 - factor * factor);
@@ -73,7 +79,7 @@ static void damping_end_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_real rest = (sph_real)(leaps ? (half - half * half) * sim->dt : 0);
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++)
-        if (sets[i] != SPH_DEAD && sph_is_matter(&sim->set[sets[i]]))
+        if (is_free(sim, sets[i]))
             sum += slow(sim, &sim->set[sets[i]], i, factor, rest);
     sim->slowing[chunk] = sum;
     t->work += span.last - span.first;

@@ -28,7 +28,7 @@ static void evening_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]))
+        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]) || sph_flow_of(sim, &sim->set[set]))
             continue;
         double lost = 0;
         for (uint32_t k = 0; k < SPH_DIM; k++) {

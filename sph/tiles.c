@@ -151,7 +151,8 @@ SPH_FAST_LOADS(SPH_FAST_FN)
 void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool homes)
 {
     const bool inv_rho = asked != 0;
-    const sph_real least = SPH_HAS_BOUNDED && asked == SPH_BOUNDED && !homes ? LEAST_DENSITY : -1; /* -1: all of them */
+    const bool bounded = SPH_HAS_BOUNDED && asked == SPH_BOUNDED && !homes;
+    const sph_real least = bounded ? LEAST_DENSITY : (sph_real)-1e30; /* all of them */
     const sph_config *c = &r->sim->cfg;
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, press = needs_press(r->sim);
     const bool floor = press && c->pressure_floor && !sph_is_solid(r->set);

@@ -60,6 +60,21 @@ static void rise_of(const o_scene *s, const o_particle *p, o_sum *o)
                       whole * m / set->rho0 * fabs(p->dev[k][l]) * p->stress_rate[k][l].s / (2 * set->shear));
 }
 
+double o_energy_of(const o_scene *s, const o_particle *p)
+{
+    const o_set *set = &s->set[p->set];
+    const bool solid = o_is_solid(s, p);
+    const double m = set->mass, whole = p->d < 0 && solid ? 1 - pow(p->root, SPH_DIM) : 1;
+    o_totals o = {0};
+    double sum = 0.5 * m * o_dot(p->v, p->v);
+    for (int k = 0; k < SPH_DIM; k++)
+        sum -= m * s->cfg.gravity[k] * p->x[k];
+    sum += m * o_phi(p) * whole * o_energy(set->eos, set->rho0, set->c0, p->d, s->cfg.pressure_floor && !solid);
+    if (solid)
+        solid_totals(s, p, &o);
+    return sum + o.elastic.v + o.plastic.v;
+}
+
 o_totals o_find_totals(const o_scene *s)
 {
     o_totals o = {0};

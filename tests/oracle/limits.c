@@ -40,9 +40,9 @@ o_limits o_find_limits(const o_scene *s)
 {
     const sph_config *c = &s->cfg;
     const double h = c->smoothing_length;
-    o_limits l = {0, 0, 0, 0, 0, 0};
+    o_limits l = {0};
     l.courant_scale = 1;
-    double sound = c->solid == SPH_TOTAL ? c->sound_speed : 0, nominal = sound, mu = 0, a = 0, g2 = 0;
+    double sound = c->solid == SPH_TOTAL ? c->sound_speed : 0, nominal = sound, mu = 0, edge = 0, a = 0, g2 = 0;
     for (uint32_t k = 0; k < s->sets; k++) {
         const o_set *set = &s->set[k];
         const double own = o_sound(set->eos, set->c0);
@@ -55,6 +55,7 @@ o_limits o_find_limits(const o_scene *s)
         if (!o_is_body(s, p))
             continue;
         mu = o_max(mu, p->mu);
+        edge = o_max(edge, p->mu_at_edge);
         if (c->shear != SPH_NO_SHEAR && p->eddy > mu) {
             mu = p->eddy;
             l.courant_scale = p->eddy_scale;
@@ -68,6 +69,8 @@ o_limits o_find_limits(const o_scene *s)
     const double nu = c->viscosity == SPH_MORRIS ? c->nu
                     : (c->viscosity ? c->alpha * nominal * h / (2 * (SPH_DIM + 2)) : 0) +
                       (c->shear ? c->nu : 0);
+    l.courant_undecided = h * edge > h * mu + (SPH_DOUBLE ? 1e-13 : 1e-7) * sound;
+    mu = o_max(mu, edge);
     l.courant = o_courant_number(c) * h / (sound + h * mu);
     l.viscous = nu > 0 ? c->viscous_factor * h * h / nu : 0;
     l.force = a > 0 ? c->force_factor * sqrt(h / a) : 0;

@@ -28,6 +28,7 @@ typedef struct beginning {
     double rise;
     double root[2]; /* damage half a step and a step later */
     bool turned[3], mirrored[3]; /* by a mirror since: vectors; tensors too */
+    double energy;
 } beginning;
 static beginning *was;
 static double last;
@@ -70,6 +71,7 @@ static void remember_state(const o_scene *s)
         memset(b->mirrored, 0, sizeof b->mirrored);
         b->d = p->d;
         b->plastic = p->plastic;
+        b->energy = o_is_body(s, p) ? o_energy_of(s, p) : 0;
     }
 }
 
@@ -80,7 +82,9 @@ void o_begin_steps(o_scene *s, uint32_t room)
         abort();
     memset(was, 0, room * sizeof *was);
     last = 0;
-    s->shifted = s->quieted = s->slowed = s->evened = (o_sum){0, 0};
+    s->shifted = s->carried_off = s->put_back_loss = (o_sum){0, 0};
+    s->quieted = s->slowed = s->evened = (o_sum){0, 0};
+    s->left = s->crossed = s->put_back = 0;
     remember_rates(s);
 }
 
@@ -178,12 +182,32 @@ void o_turn_round(o_particle *p, int k, double plane, bool tensors)
     }
 }
 
+/* those who are gone are taken out of the list, and of what is remembered */
+static void forget_the_gone(o_scene *s)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < s->n; i++) {
+        if (s->own[i].gone)
+            continue;
+        s->own[n] = s->own[i];
+        was[n++] = was[i];
+    }
+    s->n = n;
+}
+
+static void leave(o_scene *s, o_particle *p, const beginning *b)
+{
+    p->gone = true;
+    s->left++;
+    o_plus(&s->carried_off, b->energy);
+}
+
 static void pass_faces(o_scene *s)
 {
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         beginning *b = &was[i];
-        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++) {
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p) && !p->gone; k++) {
             const double lo = s->cfg.lo[k], hi = s->cfg.hi[k], length = hi - lo;
             o_close(s, "a particle on a face", p->x[k], lo, (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing);
             o_close(s, "a particle on a face", p->x[k], hi, (SPH_DOUBLE ? 1 : 0.02) * s->cfg.spacing);
@@ -191,9 +215,11 @@ static void pass_faces(o_scene *s)
             if (!low && p->x[k] < hi)
                 continue;
             const uint32_t face = s->cfg.face[k][!low];
-            if (face == SPH_OPEN || is_held(s, p, k))
-                s->undecided = "a particle leaves";
-            if (face == SPH_PERIODIC) {
+            if (is_held(s, p, k))
+                s->undecided = "a held particle leaves";
+            if (face == SPH_OPEN) {
+                leave(s, p, b);
+            } else if (face == SPH_PERIODIC) {
                 const double way = low ? length : -length;
                 p->x[k] += way;
                 p->rest[k] += way;
@@ -204,6 +230,7 @@ static void pass_faces(o_scene *s)
             }
         }
     }
+    forget_the_gone(s);
 }
 /* component k of a vector of the beginning, in the frame that mirrors have turned since */
 static double turned(const beginning *b, int k, double v) { return b->turned[k] ? -v : v; }
@@ -389,6 +416,7 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
 static void runge_kutta(o_scene *s, uint32_t number, double dt)
 {
     const double begun = s->time;
+    pass_faces(s); /* who was put back outside of them */
     filter(s, begun, begun, false);
     find_density(s, number);
     o_forces(s);
@@ -440,6 +468,8 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
         kick_drift(s, number, dt);
     else
         runge_kutta(s, number, dt);
+    o_cross(s);
+    forget_the_gone(s);
     o_even(s);
     o_slow_last(s, dt);
     o_refresh(s);
@@ -454,8 +484,10 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
         o_shift(s, dt);
     last = dt;
     if (by == SPH_RUNGE_KUTTA || by == SPH_RUNGE_KUTTA_MOMENTUM) {
-        if (s->cfg.density == SPH_SUMMATION) /* of where they are */
+        if (s->cfg.density == SPH_SUMMATION) { /* of where they are */
+            pass_faces(s);
             find_density(s, number);
+        }
         return;
     }
     if (by == SPH_PREDICTOR_CORRECTOR) {
