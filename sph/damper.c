@@ -6,13 +6,13 @@
 
    A bulk viscosity theta h c0 between particles: sound of wave number k dies at the rate theta h c0 k^2/2, and flow
    without divergence feels nothing. It conserves what the pressure conserves. Its power is q D/rho^2 a unit of mass,
-   never below 0 without the floor: kinetic energy gives (p + q)/rho^2 of continuity's part of D, density takes p/rho^2 of
-   all of D, and diffusion books (p + q)/rho^2 of its own part.
+   never below 0 without the floor: kinetic energy gives (p + q)/rho^2 of continuity's part of D, density takes p/rho^2
+   of all of D, and diffusion books (p + q)/rho^2 of its own part.
 
-   When: D of the forces' own time, to second order, from rates that stand already. Kick-drift-kick and leap-frog have D of
-   this step's middle and of the last one's, the predictor-corrector of the step's beginning and what it rose by. The
-   first forces of a scene know of no D: of second order from a start without any. What it takes in a step is of the
-   middle. Runge-Kutta has no D behind it, a summed density none at all.
+   When: D of the forces' own time, to second order, from rates that stand already. Kick-drift-kick and leap-frog have
+   D of this step's middle and of the last one's, the predictor-corrector of the step's beginning and what it rose by.
+   The first forces of a scene know of no D: of second order from a start without any. What it takes in a step is of
+   the middle. Runge-Kutta has no D behind it, a summed density none at all.
 
    Arrays: damper_press (a real a particle), damper_loss (a double for each chunk of a local pass). Cost: two local
    passes; the equation of state once more. It shortens what a step may be (factors.c). */
@@ -38,13 +38,9 @@ sph_status sph_check_damper(const sph_config *c, sph_report *r)
 }
 
 /* q/rho0 of a particle, m^2/s^2: drho in 1/s */
-static double quiet_press(const sph_sim *sim, const sph_set *set, double excess, double drho)
+static double quiet_press(const sph_sim *sim, const sph_set *set, double drho)
 {
-    const double q = sim->cfg.damper * sim->cfg.smoothing_length * set->c0 * drho;
-    if (!sph_has_floor(sim, set) || !(q < 0))
-        return q;
-    const double most = -sph_pressure(sim, set, excess) / set->rho0;
-    return q < most ? most : q;
+    return sim->cfg.damper * sim->cfg.smoothing_length * set->c0 * drho;
 }
 
 /* ---- the pass before the forces ---- */
@@ -71,9 +67,9 @@ static void damper_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_buffer *b = &sim->buf[sim->dst];
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        const bool body = set != SPH_DEAD && sph_is_matter(&sim->set[set]);
+        const bool body = set != SPH_DEAD && sph_is_matter(&sim->set[set]) && !sph_flow_of(sim, &sim->set[set]);
         const sph_set *s = &sim->set[body ? set : 0];
-        const double q = body ? quiet_press(sim, s, (double)b->rho[0][i], rate_at_end(sim, i)) : 0;
+        const double q = body ? quiet_press(sim, s, rate_at_end(sim, i)) : 0;
         sim->damper_press[i] = (sph_real)(q * s->rho0);
     }
     t->work += span.last - span.first;
@@ -83,6 +79,18 @@ const sph_pass sph_pass_damper = {"damper", sph_local_chunks, damper_chunk, NULL
 
 /* ---- the book: what the step took ---- */
 
+/* q D/rho^2 of a particle of relative density excess d, W/kg; drho of the step's middle, 1/s. With the floor p + q is
+   at least 0 */
+static double quiet_power(const sph_sim *sim, const sph_set *set, double d, double drho)
+{
+    double q = quiet_press(sim, set, drho);
+    if (sph_has_floor(sim, set) && q < 0) {
+        const double most = -sph_pressure(sim, set, d) / set->rho0;
+        q = q < most ? most : q;
+    }
+    return q * drho / ((1 + d) * (1 + d));
+}
+
 static void damper_book_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span span = sph_chunk_span(sim, chunk);
@@ -90,11 +98,10 @@ static void damper_book_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]))
+        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]) || sph_flow_of(sim, &sim->set[set]))
             continue;
         const double d = (double)b->rho[0][i], rise = sph_foresees(&sim->cfg) ? (double)b->rise[0][i] : 0;
-        const double drho = (double)b->drho[0][i] - rise; /* of the step's middle */
-        sum += sim->set[set].mass * quiet_press(sim, &sim->set[set], d, drho) * drho / ((1 + d) * (1 + d));
+        sum += sim->set[set].mass * quiet_power(sim, &sim->set[set], d, (double)b->drho[0][i] - rise);
     }
     sim->damper_loss[chunk] = sum;
     t->work += span.last - span.first;

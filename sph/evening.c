@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* evening.c: XSPH in the velocity itself, not only in what moves the positions (Powell 2012 eq 2.71): once a step, at its
-   end, v_i += u_i with the sums u of the step's last forces (xsph.h, whose weights they have). The weights m_j/rho_mean
-   are those of pairs, so momentum stays to rounding; what it takes of the kinetic energy is the book `evened`.
-   Positions then go with v alone. By steps, as printed: so what it takes in a time depends on the step. Not along axes on
-   which a set is held.
+/* evening.c: XSPH in the velocity itself, not only in what moves the positions (Powell 2012 eq 2.71): once a step, at
+   its end, v_i += u_i with the sums u of the step's last forces (xsph.h, whose weights they have). The weights
+   m_j/rho_mean are those of pairs, so momentum stays to rounding; what it takes of the kinetic energy is the book
+   `evened`. Positions then go with v alone. By steps, as printed: so what it takes in a time depends on the step. Not
+   along axes on which a set is held.
 
    Array: evening (a double for each chunk of a local pass). Cost: that of XSPH, and a local pass. */
 #include "motion.h"
@@ -28,7 +28,7 @@ static void evening_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]))
+        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]) || sph_flow_of(sim, &sim->set[set]))
             continue;
         double lost = 0;
         for (uint32_t k = 0; k < SPH_DIM; k++) {

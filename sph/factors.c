@@ -59,9 +59,9 @@ double sph_diffusion_factor(const sph_config *c)
     return 0.875 * stands / (SPH_IS(c->kernel, WENDLAND_C4) ? 9.2 : 7.0);
 }
 
-/* The damper takes D of the forces' time from rates before it. With w dt = k C and damping theta k^2 C a step of the shortest
-   waves (k 1.33: kick-drift-kick stands 1.5 without), its recursion stands C of 1.30, 1.14, 0.78, 0.50 at theta 0.1, 0.2,
-   0.5, 1: above 1.5/(1 + 2 theta). */
+/* The damper takes D of the forces' time from rates before it. With w dt = k C and damping theta k^2 C a step of the
+   shortest waves (k 1.33: kick-drift-kick stands 1.5 without), its recursion stands C of 1.30, 1.14, 0.78, 0.50 at
+   theta 0.1, 0.2, 0.5, 1: above 1.5/(1 + 2 theta). */
 #define QUIET_COURANT 1.5
 double sph_courant_factor(const sph_config *c)
 {

@@ -2,8 +2,8 @@
 /* gradient.c: corrected gradients of fluids (gradient.h): the sum M, its inverse, and what a particle brings to a
    tile.
 
-   Beside a surface only a share s of the correction is taken: B = s E^-1 + (1 - s) I, E = M/rho, with s rising from 0 at
-   det E 0.3 to 1 at 0.6. On a lattice the outermost row of water has det E 0.5, a corner of it 0.25. The whole
+   Beside a surface only a share s of the correction is taken: B = s E^-1 + (1 - s) I, E = M/rho, with s rising from 0
+   at det E 0.3 to 1 at 0.6. On a lattice the outermost row of water has det E 0.5, a corner of it 0.25. The whole
    correction pushes harder the fewer neighbours a particle has: rows below a surface leave their places up and down in
    turn, the water is stirred and sinks, and what it falls by goes into the stirring: still water in a tank is lost
    after 50 sqrt(D/g) (tests/test_gradient.c). What conserves stays so: any B will do for that. Where neighbours do not

@@ -282,6 +282,7 @@ static list leap_frog = {BEGIN, SORT, FORCES, &pass_density, QUIET, DENSITIES, F
 static list runge_kutta = {BEGIN,              SORT, DENSITIES, FORCES, &pass_settle,
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),
                            SUM_AGAIN};
+_Static_assert(sizeof runge_kutta / sizeof *runge_kutta <= SPH_MAX_PROGRAM, "SPH_MAX_PROGRAM is too small");
 enum { SUMMING = sizeof((const sph_pass *const[]){SUM_AGAIN}) / sizeof(const sph_pass *) };
 _Static_assert(sizeof runge_kutta / sizeof *runge_kutta <= SPH_MAX_PROGRAM, "room for the longest list");
 

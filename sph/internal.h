@@ -147,7 +147,7 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-#define SPH_MAX_PROGRAM (SPH_WITH_FLOW ? 56u : 48u)
+#define SPH_MAX_PROGRAM 72u
 
 struct sph_sim {
     sph_config cfg;

@@ -15,7 +15,8 @@ sph_real sph_slowed_by(const sph_sim *sim)
 {
     if (!SPH_WITH_DAMPING_RATE || !(sim->cfg.damping_rate > 0) || !sph_begins_step(sim))
         return 1;
-    return (sph_real)sph_exp(-0.5 * sim->cfg.damping_rate * sim->dt);
+    const double last = SPH_HAS_RATES_FIRST && sim->stage->resumes ? sim->now.dt_last : 0; /* damping.c */
+    return (sph_real)sph_exp(-0.5 * sim->cfg.damping_rate * (sim->dt - last));
 }
 
 sph_move sph_stage_move(const sph_sim *sim)
@@ -41,6 +42,8 @@ SPH_INLINE bool move_matter(const sph_sim *sim, const sph_move *a, uint32_t i, u
 {
     const sph_buffer *b = &sim->buf[sim->src];
     const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), part = v_set(a->part);
+    const bool flows = sph_flow_of(sim, &sim->set[b->set[0][i]]) != NULL;
+    const sph_real slowed = SPH_WITH_DAMPING_RATE && !flows ? a->slowed : 1;
     vint bad = v_set_int(0);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         /* no further than a cell, and never so far that the integer overflows */
@@ -48,7 +51,7 @@ SPH_INLINE bool move_matter(const sph_sim *sim, const sph_move *a, uint32_t i, u
         const sph_real *beside = sph_drift(sim, b, k);
         for (uint32_t j = 0; j < n; j += SPH_W) {
             const vreal was = v_load(b->vel[k] + i + j), f = v_load(b->acc[k] + i + j);
-            const vreal v = SPH_WITH_DAMPING_RATE ? was * a->slowed : was;
+            const vreal v = SPH_WITH_DAMPING_RATE ? was * slowed : was;
             const vreal u = beside ? v + v_load(beside + i + j) : v;
             const vreal d = (u * a->drift + f * a->bend) * inv;
             const vint ok = v_less(v_abs(d), far);

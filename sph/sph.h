@@ -195,7 +195,8 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
    density, and the pressure force that does the same work (Bonet & Lok 1999; schemes STANDARD and WEAK); momentum,
    angular momentum and energy stay. RENORMALISED: (B_i + B_j)/2 x_ij g in continuity, pressure and artificial
    viscosity (Wickramarachchi 2009 eqs 4.8-4.20); momentum and energy stay. Both cost a sweep and SPH_DIM (SPH_DIM +
-   1)/2 reals a particle; where neighbours do not span space the plain gradient is taken (gradient.c). */
+   1)/2 reals a particle; beside a surface a share of the correction is taken, where neighbours do not span space none
+   (gradient.c). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* How the density is made anew every shepard_every steps, or each time that filter_period (s) has passed (not beside
@@ -252,9 +253,9 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
 
 /* Acoustic damper, `damper` its theta, 0: off: in the momentum equation and in what Adami's walls see the pressure is
    p + theta h c0 d(rho)/dt, at least 0 with the pressure floor: a bulk viscosity theta h c0, which sound feels and flow
-   without divergence does not (damper.c). What it takes of the energy is `quieted` in sph_totals, with or without books.
-   0.2 is usual; it shortens the step (factors.c). Predictor-corrector, kick-drift-kick, leap-frog; not with solids,
-   summed density or printed continuity. SPH_ARENA_BYTES: or in SPH_USE_DAMPER.
+   without divergence does not (damper.c). What it takes of the energy is `quieted` in sph_totals, with or without
+   books. 0.2 is usual; it shortens the step (factors.c). Predictor-corrector, kick-drift-kick, leap-frog; not with
+   solids, summed density or printed continuity. SPH_ARENA_BYTES: or in SPH_USE_DAMPER.
 
    Damping by a rate in time, `damping_rate` r (1/s): dv/dt = -r v, exact and of second order in every integrator, for
    whatever dt, unlike `damping`, which acts by steps; takes `slowed` (damping.c). SPH_ARENA_BYTES: or in SPH_USE_BOOKS.
@@ -806,7 +807,7 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
     X(absorbed, "J", SPH_WITH_SPONGE && c->sponge_rate > 0, "kinetic energy that sponge layers took")                 \
     X(shifted, "J", SPH_WITH_SHIFTING && c->shifting > 0, "energy that shifting took; < 0: gave")                     \
     X(quieted, "J", SPH_WITH_DAMPER && c->damper > 0, "energy that the acoustic damper took")                         \
-    X(slowed, "J", SPH_WITH_DAMPING_RATE && c->damping_rate > 0, "kinetic energy that damping_rate took")                                                    \
+    X(slowed, "J", SPH_WITH_DAMPING_RATE && c->damping_rate > 0, "kinetic energy that damping_rate took")             \
     X(evened, "J", SPH_HAS_XSPH_VELOCITY && c->xsph_velocity, "kinetic energy that xsph_velocity took")               \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
     X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                             \

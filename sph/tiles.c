@@ -76,6 +76,8 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real leas
             vreal p = c.gas ? b * ((1 + e) * v_load(energy + j)) : law;
             if (SPH_WITH_DAMPER && c.damped)
                 p = p + v_load(sim->damper_press + s + j);
+            if (SPH_WITH_DAMPER && c.damped && c.floor)
+                p = v_max(p, v_set(0));
             v_store(t->m + at + j, m);
             v_store(t->rho + at + j, rho);
             v_store(t->press + at + j, c.ratio && c.press ? p / (rho * rho) : p);

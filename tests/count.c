@@ -43,6 +43,9 @@ static tank scene_tank(const char *name, uint32_t n, const char *how)
 #ifdef SPH_WITH_SHIFTING /* as above */
     p[SCENE_OF_shifting] = strcmp(how, "shifting") == 0 ? 0.5 : 0;
 #endif
+#ifdef SPH_WITH_DAMPER
+    p[SCENE_OF_damper] = strcmp(how, "damper") == 0 ? 0.2 : 0;
+#endif
     if (strcmp(how, "large_eddies") == 0)
         large_eddies(p);
     s->configure(p, &c);
@@ -61,7 +64,8 @@ int main(int argc, char **argv)
     unsigned long long done = 0;
     tank t;
     if (argc != 4) {
-        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting N STEPS\n");
+        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting|damper "
+                        "N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);

@@ -66,6 +66,10 @@ def mound_height(run, exact, t=5):
     return 100 * abs(interpolate(run.col("time"), run.col("crest_m"), t) / exact - 1)
 
 
+def drift(run, name):
+    return run.col(name)[-1] / run.col(name)[0] - 1
+
+
 def known(table, **where):
     """the last row of a table with these values"""
     return [r for r in read_table(table) if all(abs(float(r[k]) - v) < 1e-6 for k, v in where.items())][-1]
@@ -274,6 +278,23 @@ def cases(quick):
         add(f"{name}: speed over 3 to 7 s", "% of potential flow", 3.0, [run],
             lambda r, v=speed: mound_speed(r, v))
         add(f"{name}: height at 5 s", "% of potential flow", 3.0, [run], lambda r, h=height: mound_height(r, h))
+    # W10: water at rest for 10 s (Wickramarachchi 6.5): his methods, with his filter and without
+    still = {"SPH": dict(diffusion="none"), "weak": dict(diffusion="none", scheme="weak"),
+             "R-SPH": dict(diffusion="none", gradient="renormalised"),
+             "LES": dict(diffusion="none", alpha=0, shear="smagorinsky"), "delta-SPH": {},
+             "delta-SPH corrected": dict(gradient="bonet_lok")}
+    for name, options in still.items():
+        for shepard in (0, 40):
+            run = Run("still_water", n=10, frames=20, **options, **(dict(shepard=shepard) if shepard else {}))
+            tag = f"W10 still water {name}, {'filter' if shepard else 'no filter'}"
+            best = name.startswith("delta") and not shepard
+            add(f"{tag}: level", "% of depth in 10 s", 0.5 if best else None, [run],
+                lambda r: 100 * abs(drift(r, "twice_centre_m")))
+            add(f"{tag}: mean density", "% off", 1.0, [run], lambda r: 100 * abs(drift(r, "density_mean")))
+            add(f"{tag}: fluctuation of density", "% of rho0", None, [run],
+                lambda r: 100 * max(r.col("density_rms")[1:]) / 1000)
+            add(f"{tag}: largest speed at the end", "% of sqrt(g H)", None, [run],
+                lambda r: 100 * r.col("max_speed")[-1] / (9.81 * 0.15) ** 0.5)
     return rows
 
 

@@ -241,6 +241,7 @@ impact_methods = {
     "default": {}, "no shifting": dict(shifting=0), "no shifting, alpha 0.02, sound 14": NO_SHIFT,
     "shifting 0.25": dict(shifting=0.25), "shifting 1": dict(shifting=1), "sound 14": dict(sound=14.142135623730951),
     "alpha 0.02": dict(alpha=0.02), "delta 0.1": dict(delta=0.1),
+    "damper 0.2": dict(damper=0.2), "no shifting, alpha 0.02, sound 14, damper 0.4": plus(NO_SHIFT, damper=0.4),
     "h 1.2": dict(h=1.2), "h 1.5": dict(h=1.5),
     "as dam_break: h 1.2, alpha 0.01, delta 0.1, sound 14": plus(NO_SHIFT, h=1.2, alpha=0.01, delta=0.1),
 }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* damper.c: the acoustic damper, damping by a rate, XSPH in the velocity (sph.h; Powell 2012 eq 2.71).
-     damper        p + theta h c D for p, D = d(rho)/dt at the time of the forces, at least 0 with the floor. D of that time:
+     damper        p + theta h c D for p, D = d(rho)/dt at the time of the forces, at least 0 with the floor. D is
                    r + (r - r_o) dt/(dt + dt_o) from the rates of this step's middle and the one's before, of the
-                   beginning r + 2 e min(dt/dt_o, 2) where e is half of what r rose by in the last step. The first forces
-                   know of none. Taken in a step: dt m q D/rho^2 of its middle.
-     damping_rate  v exp(-r dt/2) at the beginning of a step and at its end
+                   beginning r + 2 e min(dt/dt_o, 2) where e is half of what r rose by in the last step. The first
+                   forces know of none. Taken in a step: dt m q D/rho^2 of its middle.
+     damping_rate  v exp(-r dt/2) at the beginning of a step and at its end; leap-frog, whose velocities are ahead by
+                   half a step: v exp(-r (dt - dt_o)/2), and at the end e (e v + dt a), e = exp(-r dt/2), for v + dt a
      xsph_velocity v + u at the end of a step
    Their books are what the kinetic energy loses there. */
 #include "oracle.h"
@@ -33,8 +34,8 @@ static double kinetic(const o_scene *s, const o_particle *i)
     return 0.5 * s->set[i->set].mass * o_dot(i->v, i->v);
 }
 
-/* half a step of damping by the rate */
-void o_slow(o_scene *s, double dt)
+/* damping by the rate over a time, and then `rest` of the acceleration */
+static void slow(o_scene *s, double time, double rest)
 {
     for (uint32_t a = 0; a < s->n && s->cfg.damping_rate > 0; a++) {
         o_particle *i = &s->own[a];
@@ -43,9 +44,21 @@ void o_slow(o_scene *s, double dt)
         const double before = kinetic(s, i);
         for (int k = 0; k < SPH_DIM; k++)
             if (!(o_is_solid(s, i) && s->set[i->set].held >> k & 1))
-                i->v[k] *= exp(-0.5 * s->cfg.damping_rate * dt);
-        o_add(&s->slowed, before - kinetic(s, i), before);
+                i->v[k] = i->v[k] * exp(-s->cfg.damping_rate * time) + rest * i->a[k].v;
+        o_add(&s->slowed, before - kinetic(s, i), before + kinetic(s, i));
     }
+}
+void o_slow_first(o_scene *s, double dt, double last)
+{
+    slow(s, s->cfg.integrator == SPH_LEAP_FROG ? 0.5 * (dt - last) : 0.5 * dt, 0);
+}
+void o_slow_last(o_scene *s, double dt)
+{
+    const double half = exp(-0.5 * s->cfg.damping_rate * dt);
+    if (s->cfg.integrator == SPH_LEAP_FROG)
+        slow(s, dt, (half - half * half) * dt);
+    else
+        slow(s, 0.5 * dt, 0);
 }
 
 bool o_drifts(const o_scene *s) { return s->cfg.xsph > 0 && !s->cfg.xsph_velocity; }

@@ -10,7 +10,7 @@
    In the total form the configuration's sound speed counts too: contact pushes with it.
    The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25; beside
    solids 0.22 times the cube root of (delta + nu/(h c) or alpha/8)/(0.01/8), times 0.75 (updated) or 0.42, but 0.05 at
-   least. With the damper 1.5/(1 + 2 theta) at most, in the predictor-corrector 1/(1 + 4 theta) of what it stands else. */
+   least. With the damper 1.5/(1 + 2 theta) at most, in the predictor-corrector 1/(1 + 4 theta) of what it stands. */
 #include "oracle.h"
 
 double o_courant_number(const sph_config *c)

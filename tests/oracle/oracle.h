@@ -208,7 +208,8 @@ double o_grown_root(o_scene *s, const o_particle *i, const float *flaw, uint32_t
 double o_sponge(const o_scene *s, const o_particle *i);                                    /* sponge.c: S */
 void o_quiet(const o_scene *s, o_particle *i, double rate); /* damper.c; rate: of the excess, 1/s */
 void o_book_quiet(o_scene *s, const o_particle *i, double middle, double dt);
-void o_slow(o_scene *s, double dt);
+void o_slow_first(o_scene *s, double dt, double last);
+void o_slow_last(o_scene *s, double dt);
 void o_even(o_scene *s);
 bool o_drifts(const o_scene *s);               /* whether positions go with XSPH's velocity */
 void o_find_disorder(o_scene *s);              /* shifting.c */

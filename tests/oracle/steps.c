@@ -375,6 +375,8 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
     tell(s, s->time + dt, dt);
     filter(s, s->time, s->time + half(dt), false);
     go(s, dt, dt * kick, kick, half(dt));
+    for (uint32_t i = 0; i < s->n; i++) /* the damper acts in sums of forces */
+        s->own[i].quiet = 0;
     for (uint32_t i = 0; i < s->n; i++) /* rates: places of the middle */
         for (int k = 0; k < SPH_DIM; k++)
             s->own[i].x[k] -= half(dt) * (s->own[i].v[k] + turned(&was[i], k, was[i].u[k]));
@@ -465,7 +467,7 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
 {
     const uint32_t by = s->cfg.integrator;
-    o_slow(s, dt);
+    o_slow_first(s, dt, last);
     remember_state(s);
     foresee_damage(s, dt, flaws_of);
     if (by == SPH_PREDICTOR_CORRECTOR)
@@ -477,7 +479,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     o_cross(s);
     forget_the_gone(s);
     o_even(s);
-    o_slow(s, dt);
+    o_slow_last(s, dt);
     o_refresh(s);
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
