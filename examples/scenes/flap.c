@@ -106,7 +106,7 @@ static void configure(const double *p, sph_config *c)
     *c = scene_config(p, dx, 1000, p[SOUND] * wave_long(p[GRAVITY], p[DEPTH]));
     c->gravity[1] = -p[GRAVITY];
     c->lo[0] = lo[0];
-    c->hi[0] = hi[0];
+    c->hi[0] = hi[0] + m; /* what is behind the beach's end */
     c->lo[1] = -m;
     c->hi[1] = hi[1] + m;
     c->max_particles = scene_capacity(wave_count(&w) + 1.5 * scene_wall_count(p, lo, hi, dx, SPH_LOW(1)) +

@@ -82,7 +82,7 @@ static void configure(const double *p, sph_config *c)
     *c = scene_config(p, dx, 1000, p[SOUND] * wave_long(p[GRAVITY], p[DEPTH]));
     c->gravity[1] = -p[GRAVITY];
     c->lo[0] = 0;
-    c->hi[0] = hi[0] + (p[TOP] < 1 ? m : 0);
+    c->hi[0] = hi[0] + m;
     c->lo[1] = -m;
     c->hi[1] = (1.2 + 3 * p[HEIGHT] + (p[TOP] > 1 ? p[TOP] - 1 : 0)) * p[DEPTH] + m;
     c->face[0][0] = SPH_SYMMETRY;
