@@ -315,6 +315,7 @@ def cases(quick):
         add(f"{name}: speed over 3 to 7 s", "% of potential flow", 3.0, [run],
             lambda r, v=speed: mound_speed(r, v))
         add(f"{name}: height at 5 s", "% of potential flow", 3.0, [run], lambda r, h=height: mound_height(r, h))
+    more_cases(add, quick)
     return rows
 
 
