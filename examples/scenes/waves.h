@@ -29,8 +29,8 @@ double wave_count(const wave_water *w);
 
 /* Adds the water as one set: columns of particles of one mass, as many in each as its depth has spacings, so wide that
    a particle has the room that its mass needs. Over a flat bed the last column ends at `to` (with `even` nearly); else
-   they go on to `to` or to where the water is half a spacing deep. p: the scene's parameters, for its equation of state.
- */
+   they go on to `to` or to where the water is half a spacing deep. p: the scene's parameters, for its equation of
+   state. */
 #define wave_add SPH_NAME(wave_add)
 sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w);
 
