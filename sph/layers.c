@@ -55,6 +55,9 @@ sph_status sph_layers_check(sph_sim *sim, const sph_wall *w, const char *call)
         return sph_setup_bad(sim, "wall.motion", "null: moving walls were left out (modules.h)", 1);
     if (!(w->strength >= 0 && w->strength < 1e30))
         return sph_setup_bad(sim, "wall.strength", ">= 0", w->strength);
+    if (w->side >= SPH_SIDES || (w->side && (!SPH_HAS_SIDES || !sph_layers_wanted(w) || w->compressible)))
+        return sph_setup_bad(sim, "wall.side", SPH_HAS_SIDES ? "SPH_BOTH_SIDES, or of GHOST (not compressible) and ADAMI "
+                             "SPH_FRONT, SPH_FACE" : "SPH_BOTH_SIDES: others were left out (modules.h)", w->side);
     if (w->layers > 64)
         return sph_setup_bad(sim, "wall.layers", "0 .. 64", w->layers);
     if (sim->groups == SPH_MAX_GROUPS)
@@ -78,6 +81,7 @@ sph_status sph_layers_finish(sph_sim *sim, const sph_wall *w, sph_layers_before 
         return st;
     }
     sim->has_adami |= w->kind == SPH_WALL_ADAMI;
+    sim->sided |= w->side != SPH_BOTH_SIDES;
     sim->has_force_wall |= !sph_layers_wanted(w);
     const uint32_t made = sph_setup_add_group(sim, w->motion, w->motion_ctx);
     if (group)
@@ -100,6 +104,7 @@ sph_set *sph_layers_new_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
     s->group = sim->groups;
     s->compressible = w->compressible && SPH_IS(w->kind, WALL_GHOST); /* others have no rate to follow */
     s->no_slip = w->no_slip;
+    s->side = (uint8_t)w->side;
     s->eos = (uint8_t)sim->cfg.eos;
     s->rho0 = sim->cfg.rho0;
     s->c0 = sim->cfg.sound_speed;

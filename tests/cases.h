@@ -24,6 +24,8 @@ typedef struct bits_case {
     bool shifting;
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
+    bool flow;                            /* water comes in and goes out along the first axis */
+    bool quiet, slowed, evened;           /* acoustic damper; damping by a rate; XSPH in the velocity */
     bool bed;                             /* walls by a polyline: a box in 1-D and 3-D */
     uint32_t motion;                      /* of a wall that moves: CASE_... */
 } bits_case;
@@ -151,6 +153,29 @@ static const bits_case bits_cases[] = {
     {"large_eddies_no_slip", CASE_BASE, .shear = SPH_SMAGORINSKY_WICK, .face = SPH_MIRROR_NO_SLIP, .books = true},
     {"large_eddies_periodic", CASE_BASE, .shear = SPH_SMAGORINSKY, .face = SPH_PERIODIC,
      .integrator = SPH_LEAP_FROG},
+    /* inflows and outflows */
+    {"flow", CASE_BASE, .flow = true, .books = true},
+    {"flow_kick_drift_kick", CASE_BASE, .flow = true, .integrator = SPH_KICK_DRIFT_KICK, .diffusion = SPH_MOLTENI,
+     .shifting = true, .books = true},
+    {"flow_runge_kutta", CASE_BASE, .flow = true, .integrator = SPH_RUNGE_KUTTA, .xsph = true, .shepard = true,
+     .damped = true},
+    /* damper, damping by a rate, XSPH in the velocity */
+    {"damper", CASE_BASE, .quiet = true, .books = true},
+    {"damper_kick_drift_kick", CASE_BASE, .quiet = true, .integrator = SPH_KICK_DRIFT_KICK,
+     .diffusion = SPH_HYDROSTATIC, .floor = true, .books = true, .shifting = true},
+    {"damper_symmetry", CASE_BASE, .quiet = true, .face = SPH_SYMMETRY, .integrator = SPH_LEAP_FROG,
+     .gradient = SPH_BONET_LOK},
+    {"damper_weak", .kernel = SPH_QUINTIC, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .quiet = true,
+     .scheme = SPH_WEAK, .compressible = true, .slip_less = true, .books = true},
+    {"damping_rate", CASE_BASE, .slowed = true},
+    {"damping_rate_runge_kutta", CASE_BASE, .slowed = true, .integrator = SPH_RUNGE_KUTTA, .xsph = true,
+     .face = SPH_SYMMETRY},
+    {"damping_rate_solid", CASE_SOLID, .solid = SPH_UPDATED, .slowed = true, .held = true,
+     .integrator = SPH_KICK_DRIFT_KICK, .books = true},
+    {"damping_rate_leap_frog", CASE_BASE, .slowed = true, .integrator = SPH_LEAP_FROG, .moving = true},
+    {"xsph_velocity", CASE_BASE, .xsph = true, .evened = true, .books = true},
+    {"xsph_velocity_solid", CASE_SOLID, .solid = SPH_CORRECTED, .xsph = true, .evened = true, .held = true,
+     .integrator = SPH_KICK_DRIFT_KICK},
     /* polylines, motions by programme and by spline */
     {"polyline", CASE_BASE, .bed = true, .books = true},
     {"polyline_ghost", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .bed = true,
@@ -269,6 +294,10 @@ static sph_config case_config(const bits_case *b)
     }
     case_sponge(&c, b->sponge);
     c.shifting = b->shifting ? 0.5 : 0;
+    c.max_flows = b->flow ? 2 : 0;
+    c.damper = b->quiet ? 0.2 : 0;
+    c.damping_rate = b->slowed ? 30 : 0;
+    c.xsph_velocity = b->evened;
     c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
     return c;
 }
@@ -298,6 +327,27 @@ static sph_status case_water(sph_sim *sim, uint32_t set, uint32_t other, uint32_
     return SPH_OK;
 }
 
+/* an inflow in front of the water, through the low wall, and an outflow in its last spacings */
+static sph_status case_flow(sph_sim *sim, uint32_t water)
+{
+#if SPH_WITH_FLOW
+    sph_flow f = {.face = SPH_HIGH(0), .speed = 8};
+    uint32_t set;
+    for (int k = 0; k < SPH_DIM; k++)
+        f.hi[k] = CASE_N * CASE_DX;
+    f.lo[0] = -4 * CASE_DX;
+    f.hi[0] = 0;
+    sph_status st = sph_add_inflow(sim, water, &f, &set);
+    f.face = SPH_LOW(0);
+    f.hi[0] = CASE_N * CASE_DX;
+    f.lo[0] = f.hi[0] - 3 * CASE_DX;
+    return st ? st : sph_add_outflow(sim, water, &f, &set);
+#else
+    (void)sim, (void)water;
+    return SPH_BAD_ARGUMENT;
+#endif
+}
+
 /* a tank whose bed is lowest in its middle */
 static __attribute__((unused)) sph_status case_bed(sph_sim *sim, const sph_wall *w)
 {
@@ -325,7 +375,7 @@ static sph_status case_walls(sph_sim *sim, const bits_case *b)
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         lo[k] = 0;
         hi[k] = CASE_N * CASE_DX;
-        if (k > 0 || b->face == SPH_OPEN)
+        if ((k > 0 || b->face == SPH_OPEN) && (k > 0 || !b->flow))
             faces |= SPH_LOW(k) | (k + 1 < SPH_DIM || SPH_DIM == 1 ? SPH_HIGH(k) : 0);
     }
     if (!faces)
@@ -384,6 +434,8 @@ static sph_status case_build(sph_sim *sim, const bits_case *b)
     if (!st && SPH_DIM > 1 && b->damage)
         st = sph_add_flaws(sim, set, &flaws);
 #endif
+    if (!st && b->flow)
+        st = case_flow(sim, set);
     if (!st && b->wall != CASE_NO_WALL)
         st = case_walls(sim, b);
     return st;

@@ -28,6 +28,10 @@
     X(block)                                                                                                \
     X(caldera)                                                                                              \
     X(solitary)                                                                                             \
+    X(weir)                                                                                                 \
+    X(caldera_wave)                                                                                         \
+    X(wave_train)                                                                                           \
+    X(still_water)                                                                                          \
     X(piston)                                                                                               \
     X(bore)                                                                                                 \
     X(collision)                                                                                            \
