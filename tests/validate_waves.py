@@ -147,8 +147,8 @@ def spline(r):
 
 def lean_of_profile(name, n):
     """dX/dy that track_steepest (examples/scenes/track.c) reads off an exact profile, a table of x and eta, at n
-    particles in the depth: it looks through splines of knots 1.5 dx and over two spacings, so that a vertical tangent of a small
-    part of the face reads as less"""
+    particles in the depth: it looks through splines of knots 1.5 dx and over two spacings, so that a vertical tangent
+    of a small part of the face reads as less"""
     line = [(float(r["x"]), float(r["eta"])) for r in read_table(name)]
     dx, knot, fine = 1 / n, 1.5 / n, 1 / (6 * n)
     first, (crest, high) = min(x for x, _ in line), max(line, key=lambda q: q[1])
