@@ -279,7 +279,8 @@ def more_cases(add, quick):
                 lambda r, c=column, f=figure: off(at_time(r, clock, c, vertical_tangent(r, clock, 5, seen())),
                                                   float(exact[f])))
         add("W8 shoaling 1:35 e=0.4: cost", "M particle-steps", None, [run], lambda r: r.cost())
-    flap = Wave("flap", every=0.03, **corrected)
+    # corrected water, and plain with less viscosity, grow noisy beside the flap until a density is lost
+    flap = Wave("flap", every=0.03)
     add("W6.9 flap: period of the waves", "% of the flap's", 1.0, [flap], lambda r: off(flap_period(r), 1))
     add("W6.9 flap: height of the waves", "% of linear theory", 5.0, [flap],
         lambda r: off(2 * flap_waves(r)[0], r.col("height_linear")[0]))
