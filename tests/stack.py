@@ -32,7 +32,7 @@ CALLS = [
                                  "force_cubic", "force_c", "force_c_w", "force_c_hb", "force_c_hbw", "force_s_cubic",
                                  "force_s_cubic_r", "force_s_w2", "force_s_w2_r", "force_s_w2_t"]),
     (r"\.parallel\(", ["run_job"]),  # the host's own frames are its own
-    (r"\.motion\(", ["motion_table"]),
+    (r"\.motion\(", ["motion_table", "motion_programme", "motion_spline"]),
     (r"->(sink|source)\(|\.stage_log\(|->stage_log\(|body_force\(|[.>]fault\(|\bfn\(", [HOST]),
     (r"\binside\(|->inside\(", ["in_shape", "in_polygon"]),
 ]

@@ -192,6 +192,66 @@ static void water_at_rest_is_level_up_to_both_ends(void **state)
     }
 }
 
+static double ramp(const void *of, double x) { return *(const double *)of * x; }
+
+/* water from the bed to y = 1, and on it a block up to 2 whose right face goes by `lean` a unit of height */
+static sph_sim *block(double lean, double bed)
+{
+    const double dx = 1.0 / 16;
+    sph_config c = open_config(12, dx);
+    uint32_t set;
+    c.max_particles = 6000;
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    for (int i = 0; i < 160; i++)
+        for (int j = 0; j < 32; j++) {
+            const double x[2] = {(i + 0.5) * dx, (j + 0.5) * dx}, face = 5 + lean * (x[1] - 1);
+            if (x[1] > bed * x[0] && (x[1] < 1 || (x[0] > 3 && x[0] < face)))
+                must(sim, sph_add_particle(sim, set, x, NULL, 0, NULL));
+        }
+    return sim;
+}
+
+static void the_face_of_a_wave_is_seen_to_lean_as_it_does(void **state)
+{
+    const track_tank tank = {0, 10, 1, 1.0 / 16, false, NULL, NULL};
+    (void)state;
+    for (double lean = -1; lean < 1.1; lean += 0.5) {
+        const track_face f = track_steepest(block(lean, 0), &tank, (track_crest){4, 2, 0}, false);
+        close_to(f.lean, lean, 0.13);
+        assert_true(f.y > 1.1 && f.y < 2);
+        close_to(f.x, 5 + lean * (f.y - 1), 0.75 / 16); /* the lattice's own steps are half a spacing off */
+        const track_face none = track_steepest(block(lean, 0), &tank, (track_crest){4, 1, 0}, false);
+        close_to(none.lean, 0, 0);
+        const track_face left = track_steepest(block(lean, 0), &tank, (track_crest){4, 2, 0}, true);
+        close_to(left.x, 3, 0.5 / 16); /* the other face is upright */
+        close_to(left.lean, 0, 0.06);
+        assert_int_equal(free_sims(NULL), 0);
+    }
+}
+
+static void heights_and_fronts_stand_where_the_water_does(void **state)
+{
+    static const double slope = 0.05, at[3] = {2, 4, 8};
+    const track_tank flat = {0, 10, 1, 1.0 / 16, false, NULL, NULL}, sloped = {0, 10, 1, 1.0 / 16, false, ramp, &slope};
+    double h[3];
+    (void)state;
+    track_heights(block(0, 0), &flat, at, 3, h);
+    close_to(h[0], 1, 1e-3);
+    close_to(h[1], 2, 1e-3);
+    close_to(h[2], 1, 1e-3);
+    track_heights(block(0, slope), &sloped, at, 3, h);
+    close_to(h[0], 1, 0.04); /* the lattice is cut at the bed */
+    close_to(h[1], 2, 0.04);
+    close_to(h[2], 1, 0.04);
+    close_to(track_front(block(0, 0), &flat, 4, 1, 1.5), 5, 0.02);
+    close_to(track_front(block(0, 0), &flat, 4, -1, 1.5), 3, 0.02);
+    close_to(track_front(block(0, 0), &flat, 4, 1, 0.1), 10, 1e-9);
+    close_to(track_between(block(0, 0), &flat, 6, 9).height, 1, 1e-2);
+    close_to(track_highest(block(0, 0), &flat).height, 2, 0.1);
+    close_to(track_at_wall(block(0, 0), 10, -1, 0.2), 1, 0.05);
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
@@ -201,6 +261,8 @@ int main(void)
         subject(heights_that_no_wave_has_are_refused),
         subject(the_crest_of_a_known_wave_is_found_with_its_place_height_and_speed),
         subject(water_at_rest_is_level_up_to_both_ends),
+        subject(the_face_of_a_wave_is_seen_to_lean_as_it_does),
+        subject(heights_and_fronts_stand_where_the_water_does),
     };
     return run_subjects("waves", list);
 }

@@ -11,13 +11,13 @@
 enum { DEPTH = SCENE_COMMON, MOUND_B, MOUND_K, LENGTH, N, GRAVITY, SOUND, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.001, SPH_HYDROSTATIC, SCENE_ADAMI,
+    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.002, SPH_HYDROSTATIC, SCENE_ADAMI,
                     1, 0, 1, SPH_KICK_DRIFT_KICK, 0.9, 1),
     {"depth", "m", "depth of the water at rest", 0.15, 1e-4, 1e4, SCENE_NUMBER},
     {"mound_b", "m", "height of the mound at the left end", 0.35, 0, 1e4, SCENE_NUMBER},
     {"mound_k", "1/m", "how fast the mound falls", 2.5, 1e-6, 1e4, SCENE_NUMBER},
     {"length", "depth", "length of the tank", 32, 8, 1000, SCENE_NUMBER},
-    {"n", "-", "particles in the depth", 12, 4, 4000, SCENE_WHOLE},
+    {"n", "-", "particles in the depth", 16, 4, 4000, SCENE_WHOLE},
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
     {"sound", "sqrt(g H)", "sound speed, H the depth", 16, 2, 1000, SCENE_NUMBER},
 };
@@ -31,7 +31,7 @@ static double surface(const void *of, double x)
 static wave_water water(const double *p)
 {
     return (wave_water){.depth = p[DEPTH], .gravity = p[GRAVITY], .sound = p[SOUND], .to = p[LENGTH],
-                        .n = (uint32_t)p[N], .surface = surface, .of = p};
+                        .n = (uint32_t)p[N], .even = true, .surface = surface, .of = p};
 }
 static void tank(const double *p, double *lo, double *hi)
 {

@@ -20,7 +20,7 @@ enum { SLABS = 12 };
 #define HIGH 1.5 /* top of the flap, depths */
 
 static const scene_param param[PARAMS] = {
-    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.001, SPH_HYDROSTATIC, SCENE_ADAMI,
+    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.005, SPH_HYDROSTATIC, SCENE_ADAMI,
                     1, 0, 1, SPH_KICK_DRIFT_KICK, 0.9, 1),
     {"depth", "m", "depth of the water at rest", 0.3, 1e-4, 1e4, SCENE_NUMBER},
     {"stroke", "depth", "of the flap at still water, from end to end", 0.15, 0, 1, SCENE_NUMBER},
@@ -31,7 +31,7 @@ static const scene_param param[PARAMS] = {
     {"n", "-", "particles in the depth", 12, 4, 4000, SCENE_WHOLE},
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
     {"sound", "sqrt(g H)", "sound speed, H the depth", 10, 2, 1000, SCENE_NUMBER},
-    {"periods", "-", "length of the run", 11, 0, 1e6, SCENE_NUMBER},
+    {"periods", "-", "length of the run", 10.2, 0, 1e6, SCENE_NUMBER},
 };
 
 static double spacing(const double *p) { return p[DEPTH] / p[N]; }
@@ -106,7 +106,7 @@ static void configure(const double *p, sph_config *c)
     *c = scene_config(p, dx, 1000, p[SOUND] * wave_long(p[GRAVITY], p[DEPTH]));
     c->gravity[1] = -p[GRAVITY];
     c->lo[0] = lo[0];
-    c->hi[0] = hi[0];
+    c->hi[0] = hi[0] + m; /* what is behind the beach's end */
     c->lo[1] = -m;
     c->hi[1] = hi[1] + m;
     c->max_particles = scene_capacity(wave_count(&w) + 1.5 * scene_wall_count(p, lo, hi, dx, SPH_LOW(1)) +

@@ -11,7 +11,7 @@ enum { DEPTH = SCENE_COMMON, HEIGHT, SLOPE, TOE, AT, TOP, N, GRAVITY, SOUND, TRA
 
 static const scene_param param[PARAMS] = {
     SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.001, SPH_HYDROSTATIC, SCENE_ADAMI,
-                    1, 0, 1, SPH_KICK_DRIFT_KICK, 0.9, 0),
+                    1, 0, 1, SPH_KICK_DRIFT_KICK, 0.9, 1),
     {"depth", "m", "depth of the water at rest before the slope", 0.2, 1e-4, 1e4, SCENE_NUMBER},
     {"height", "depth", "height of the crest above still water", 0.4, SOLITON_LEAST, SOLITON_MOST, SCENE_NUMBER},
     {"slope", "-", "how far the slope goes for a rise of 1", 35, 1, 1000, SCENE_NUMBER},
@@ -82,7 +82,7 @@ static void configure(const double *p, sph_config *c)
     *c = scene_config(p, dx, 1000, p[SOUND] * wave_long(p[GRAVITY], p[DEPTH]));
     c->gravity[1] = -p[GRAVITY];
     c->lo[0] = 0;
-    c->hi[0] = hi[0] + (p[TOP] < 1 ? m : 0);
+    c->hi[0] = hi[0] + m;
     c->lo[1] = -m;
     c->hi[1] = (1.2 + 3 * p[HEIGHT] + (p[TOP] > 1 ? p[TOP] - 1 : 0)) * p[DEPTH] + m;
     c->face[0][0] = SPH_SYMMETRY;

@@ -38,7 +38,7 @@ static double columns(const wave_water *w) { return (double)(uint32_t)(whole_mas
 double wave_count(const wave_water *w)
 {
     const double most = (w->to - w->from) * w->n + 2;
-    return (w->bed ? most : columns(w)) * (w->n + 2.0) + whole_mass(w) * w->n;
+    return (w->bed || w->even ? most : columns(w)) * (w->n + 2.0) + whole_mass(w) * w->n * w->n;
 }
 
 static sph_status add(sph_sim *sim, const double *p, uint32_t set, const wave_water *w, double x, double y)
@@ -56,7 +56,7 @@ static sph_status add(sph_sim *sim, const double *p, uint32_t set, const wave_wa
 /* particles of a column */
 static uint32_t rows_at(const wave_water *w, double x)
 {
-    const double rows = (1 - bed_at(w, x)) * w->n + 0.5;
+    const double high = w->even ? w->surface(w->of, x) : 0, rows = (1 + high - bed_at(w, x)) * w->n + 0.5;
     return rows < 1 ? 1 : (uint32_t)rows;
 }
 
@@ -80,9 +80,28 @@ static sph_status add_columns(sph_sim *sim, const double *p, uint32_t set, const
     return st;
 }
 
+/* mass of a particle (over that of D^2); rows that change from column to column fit in after a few turns */
+static double particle_mass(const wave_water *w)
+{
+    double mass = 1.0 / ((double)w->n * w->n);
+    if (w->bed)
+        return mass;
+    if (!w->even)
+        return whole_mass(w) / (columns(w) * w->n);
+    for (int turn = 0; turn < 5; turn++) {
+        double x = w->from, sum = 0;
+        while (x + 0.5 / w->n < w->to) {
+            sum += rows_at(w, x);
+            x = further(w, x, mass * rows_at(w, x));
+        }
+        mass = whole_mass(w) / sum;
+    }
+    return mass;
+}
+
 sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w)
 {
-    const double mass = w->bed ? 1.0 / ((double)w->n * w->n) : whole_mass(w) / (columns(w) * w->n);
+    const double mass = particle_mass(w);
     const sph_fluid f = {.mass = 1000 * w->depth * w->depth * mass};
     uint32_t set;
     const sph_status st = sph_add_fluid(sim, &f, &set);

@@ -11,6 +11,7 @@ typedef struct wave_water {
     double depth, gravity, sound; /* m, m/s^2; sound speed in sqrt(gD) */
     double from, to;              /* where the water begins and ends, D */
     uint32_t n;                   /* particles in the depth */
+    bool even;                    /* rows by the height of the water, not of the still water: for high mounds */
     double (*surface)(const void *of, double x);                                   /* above still water */
     void (*flow)(const void *of, double x, double y, double *v, double *pressure); /* null: at rest, hydrostatic */
     double (*bed)(const void *of, double x);                                       /* null: flat, at 0 */
@@ -27,8 +28,9 @@ double wave_pressed(double sound, double eta);
 double wave_count(const wave_water *w);
 
 /* Adds the water as one set: columns of particles of one mass, as many in each as its depth has spacings, so wide that
-   a particle has the room that its mass needs. Over a flat bed the last column ends at `to`; else they go on to `to` or
-   to where the water is half a spacing deep. p: parameters of the scene, for its equation of state. */
+   a particle has the room that its mass needs. Over a flat bed the last column ends at `to` (with `even` nearly); else
+   they go on to `to` or to where the water is half a spacing deep. p: the scene's parameters, for its equation of
+   state. */
 #define wave_add SPH_NAME(wave_add)
 sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w);
 
