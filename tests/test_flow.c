@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_flow.c: inflows and outflows: a uniform stream keeps its lattice to the last bit, books of mass and ids are exact
-   over many particles, a full capacity is a status and leaves the state, restarts in mid-layer, slices and threads change
-   nothing, energy is accounted for, and what is refused. */
+/* test_flow.c: inflows and outflows: a uniform stream keeps its lattice to the last bit, books of mass and ids are
+   exact over many particles, a full capacity is a status and leaves the state, restarts in mid-layer, slices and
+   threads change nothing, energy is accounted for, and what is refused. */
 #include "testing.h"
 
 #define DX 0.125 /* powers of two: masses add up exactly */
@@ -249,7 +249,7 @@ static void restarts_slices_and_threads_change_nothing(void **state)
     }
 }
 
-/* the balance of all books stays: what the flows do to water is wall_work, what comes and goes is fed and carried off */
+/* the balance of all books stays: what flows do to water is wall_work, what comes and goes is fed and carried off */
 static void energy_is_accounted_for(void **state)
 {
     for (uint32_t by = 0; by < SPH_INTEGRATORS; by++) {
