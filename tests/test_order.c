@@ -216,7 +216,7 @@ static double orders(const scene *s, uint32_t integrator)
     return worst;
 }
 
-/* a third of the table, each row with one or two integrators; ORDER=n in the environment: every n-th of it; ORDER=all */
+/* a third of the table, each row with one or two integrators; ORDER=n in the environment: every n-th; ORDER=all */
 static void all_are_of_second_order(const scene *s, size_t n)
 {
     static uint32_t row;
