@@ -552,8 +552,9 @@ sph_status sph_add_shape(sph_sim *sim, uint32_t set, const sph_shape *shape);
    Books: added_mass, fed; removed_mass, carried_off. Ids of newcomers: the next free one, counted round 0 ..
    max_particles - 1. Not where density is summed. A channel needs as many particles as its lattice has with both
    boxes, and two layers more: what a step feeds (at most one, speed dt < dx), and what stands beyond an outflow's end
-   until the next sort. A step's work: (3 + 1 for each sort) max_particles + 2,048 units more at most; a slice may pass
-   its budget by so many units as a step feeds particles, times the threads, and by max_particles besides. */
+   until the next sort. A step's work: (3 + 1 for each sort) max_particles + 512 + 130 for each particle that it feeds,
+   more at most; a slice may pass its budget by so many units as a step feeds particles, times the threads, and by
+   max_particles besides. */
 typedef struct sph_flow {
     double lo[SPH_DIM], hi[SPH_DIM]; /* m */
     uint32_t face;                   /* SPH_LOW(k) or SPH_HIGH(k), section 6 */

@@ -155,6 +155,10 @@ static void books_of_mass_and_ids_are_exact_over_many_particles(void **state)
         }
     }
     assert_true(check_books(sim, &c, first) >= wanted);
+    sph_usage u;
+    sph_get_usage(sim, &u);
+    const uint64_t more = 4 * c.max_particles + 512 + 130 * ROWS;
+    assert_true(u.step_work <= SPH_STEP_WORK(1, u.particles, u.cell_particles, u.cells) + more);
     assert_true(most <= (REACH + 2) * ROWS);
 }
 
