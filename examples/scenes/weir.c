@@ -13,7 +13,7 @@ enum { W = SCENE_COMMON, DEPTH, N, SPEED, LENGTH, SOUND, DURATION, PARAMS };
 
 static const scene_param param[PARAMS] = {
     SCENE_PARAMS_OF(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_MOLTENI, SCENE_ADAMI, 1, 0, 0,
-                    SPH_KICK_DRIFT_KICK, 1, 1),
+                    SPH_KICK_DRIFT_KICK, 0.5, 1),
     {"w", "depth", "height of the plate", 1, 0.05, 10, SCENE_NUMBER},
     {"depth", "m", "depth of the stream", 0.3, 1e-6, 1e4, SCENE_NUMBER},
     {"n", "-", "particles across the stream", 20, 4, 1000, SCENE_WHOLE},
