@@ -173,10 +173,10 @@ struct sph_sim {
     uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT]; /* of a thread's column sets: reals, and where each begins */
     uint32_t sets, groups, unplaced; /* particles that an addition found no room for */
     uint64_t setup_hash;
-    uint32_t flows, newcomers; /* newcomers: behind the last particle of buffer cur, in the step under way */
-    bool has_adami, has_force_wall, sided; /* sided: there are walls that act on one side only */
+    bool has_adami, has_force_wall;
     bool mixed, own_sound; /* matter is of several materials, or of one that is not the configuration's; so is its c0 */
     bool table_valid;      /* cell[] belongs to buffer cur */
+    bool sided;            /* there are walls that act on one side only */
     /* step machine */
     const sph_pass *program[SPH_MAX_PROGRAM];
     uint32_t passes, pc, chunk, chunks, chunk_cells; /* chunk_cells: of the sweeps of the step under way */
@@ -193,6 +193,7 @@ struct sph_sim {
     uint64_t mark_work, mark_slice, last_work, last_pairs;
     uint32_t last_passes, last_limit;
     double last_dt;
+    uint32_t flows, newcomers; /* newcomers: behind the last particle of buffer cur, in the step under way */
     /* state; the largest comes last: what is near the beginning takes shorter code */
     sph_scalars next, now; /* next: being made by the step under way */
     double wall_acc[SPH_MAX_GROUPS][SPH_DIM]; /* m/s^2, of groups that move, at `moment` (groups.c) */
@@ -282,6 +283,8 @@ SPH_INLINE bool sph_slows(const sph_config *c) { return SPH_WITH_DAMPING_RATE &&
 SPH_INLINE bool sph_evens(const sph_config *c) { return SPH_HAS_XSPH_VELOCITY && c->xsph_velocity; }
 /* whether positions go with the XSPH velocity, too */
 SPH_INLINE bool sph_drifts(const sph_config *c) { return sph_uses_xsph(c) && !sph_evens(c); }
+SPH_INLINE bool sph_has_flows(const sph_config *c) { return SPH_WITH_FLOW && c->max_flows > 0; }
+SPH_INLINE bool sph_has_sponge(const sph_config *c) { return SPH_WITH_SPONGE && c->sponge_rate > 0; }
 SPH_INLINE bool sph_shifts(const sph_config *c) { return SPH_WITH_SHIFTING && c->shifting > 0; }
 SPH_INLINE bool sph_filters(const sph_config *c)
 {

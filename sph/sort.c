@@ -18,7 +18,7 @@ SPH_OBJECT(sort)
 
 typedef struct range {
     uint32_t lo, hi;         /* slabs */
-    uint32_t from[4], to[4]; /* pieces of src to look at, in order of index */
+    uint32_t from[SPH_WITH_FLOW ? 4 : 3], to[SPH_WITH_FLOW ? 4 : 3]; /* pieces of src to look at, in order of index */
     uint32_t pieces;
     uint32_t own_from, own_to, known; /* known: those before it are in the table */
 } range;
@@ -29,7 +29,8 @@ static range make_range(const sph_sim *sim, uint32_t r)
     g.lo = (uint32_t)((uint64_t)sim->grid.slabs * r / sim->ranges);
     g.hi = (uint32_t)((uint64_t)sim->grid.slabs * (r + 1) / sim->ranges);
     g.pieces = 1;
-    g.known = sim->src_count;
+    if (SPH_WITH_FLOW)
+        g.known = sim->src_count;
     if (!sim->src_table) {
         g.from[0] = g.own_from = 0;
         g.to[0] = g.own_to = sim->src_count;
@@ -51,7 +52,8 @@ static range make_range(const sph_sim *sim, uint32_t r)
             g.pieces = 2;
         }
     }
-    g.known = sim->slab[sim->grid.slabs];
+    if (SPH_WITH_FLOW)
+        g.known = sim->slab[sim->grid.slabs];
     if (SPH_WITH_FLOW && g.known < sim->src_count) { /* newcomers may be anywhere: the last range owns them */
         g.from[g.pieces] = g.known;
         g.to[g.pieces++] = sim->src_count;

@@ -38,7 +38,8 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 6u /* 1: no solids; 2: sponges; 3: `rise`, many books; 4: `lag`; 5: more books, flows, energies */
+/* 1: no solids; 2: no sponges; 3: before `rise`, with fewer books; 4: before `lag`; 5: before flows, energies, damper */
+#define SPH_VERSION 6u
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
@@ -595,10 +596,10 @@ typedef struct sph_shape {
 #define sph_add_shape SPH_NAME(add_shape)
 sph_status sph_add_shape(sph_sim *sim, uint32_t set, const sph_shape *shape);
 
-/* Inflows and outflows of a set of fluid, at most max_flows of them (Gray 2001 eqs 2.34, 2.35). Each is a box inside the
-   domain, of whole spacings along its axis, at least the kernel's support; `face` is the face of the box through which
-   it is joined to the water. Each is a set of its own, of the same material, that takes part in every sum but feels no
-   force: what holds it does wall_work.
+/* Inflows and outflows of a set of fluid, at most max_flows of them (Gray 2001 eqs 2.34, 2.35). Each is a box inside
+   the domain, of whole spacings along its axis, at least the kernel's support; `face` is the face of the box through
+   which it is joined to the water. Each is a set of its own, of the same material, that takes part in every sum but
+   feels no force: what holds it does wall_work.
    INFLOW: the box is filled with particles that go out through the face with `speed`. Behind each that has passed it,
    the same is born one length of the box further back, exactly, in the next step; who has passed belongs to the water.
    Profiles: sph_apply_field and sph_apply_hydrostatic on *set, before the first step, say with what velocity along the
@@ -607,9 +608,11 @@ sph_status sph_add_shape(sph_sim *sim, uint32_t set, const sph_shape *shape);
    OUTFLOW: water that comes in through the face keeps its velocity and density and is removed behind the opposite one,
    in number `left`. Sound is reflected where the flow is slower than sound: a sponge before it helps.
    Books: added_mass, fed; removed_mass, carried_off. Ids of newcomers: the next free one, counted round 0 ..
-   max_particles - 1. Not where density is summed. A channel needs as many particles as its lattice has with both boxes,
-   and what a step feeds: a layer at most (speed dt < dx). A step's work: (5 + 2 for each sort) max_particles more at
-   most; a slice may pass its budget by so many as a step feeds, times the threads, and by max_particles/8. */
+   max_particles - 1. Not where density is summed. A channel needs as many particles as its lattice has with both
+   boxes, and two layers more: what a step feeds (at most one, speed dt < dx), and what stands beyond an outflow's end
+   until the next sort. A step's work: (3 + 1 for each sort) max_particles + 512 + 130 for each particle that it feeds,
+   more at most; a slice may pass its budget by so many units as a step feeds particles, times the threads, and by
+   max_particles besides. */
 typedef struct sph_flow {
     double lo[SPH_DIM], hi[SPH_DIM]; /* m */
     uint32_t face;                   /* SPH_LOW(k) or SPH_HIGH(k), section 6 */
@@ -660,9 +663,10 @@ enum {
     SPH_WALLS
 };
 
-/* On whom a wall of layers acts. FRONT: on what is in front of its face's plane; FACE: and between the face's edges. For
-   plates between two waters: as thick as the kernel's support, with layers of one group that face each way in the same
-   place, FRONT, and at its free end FACE, so that everybody feels the plate once. Faces keep their direction. */
+/* On whom a wall of layers acts. FRONT: on what is in front of its face's plane; FACE: and between the face's edges.
+   For plates between two waters: as thick as the kernel's support, with layers of one group each that face both ways in
+   the same place, FRONT, and at its free end FACE, so that everybody feels the plate once. Faces keep their direction.
+   */
 enum { SPH_BOTH_SIDES, SPH_FRONT, SPH_FACE, SPH_SIDES };
 
 typedef struct sph_wall {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* random_scene.h: small scenes that a number draws: every choice of the configuration, every kind of wall, fluids and
-   solids, faces of every kind, motions, gates, flaws, sponges, shifting, inflows and outflows. Two calls with one number make the same
-   scene. */
+   solids, faces of every kind, motions, gates, flaws, sponges, shifting, inflows and outflows. Two calls with one
+   number make the same scene. */
 #ifndef SPH_RANDOM_SCENE_H
 #define SPH_RANDOM_SCENE_H
 

@@ -391,13 +391,15 @@ static void the_constant_bound_holds_and_is_close(void **state)
                 c.shear = bits & SPH_USE_SHEAR ? SPH_SMAGORINSKY : SPH_NO_SHEAR;
                 c.energy = (bits & SPH_USE_ENERGY) != 0;
                 c.max_stretch = 1;
+                const uint32_t flow = bits % 5 == 3 ? SPH_USE_FLOW : 0;
+                c.max_flows = flow ? SPH_MAX_FLOWS : 0;
                 for (int k = 0; k < SPH_DIM; k++) {
                     c.hi[k] = c.lo[k] + DX * (10 + 3 * k + 20 * (int)n);
                     double m = floor((c.hi[k] - c.lo[k]) / (2 * c.smoothing_length));
                     cells *= m < 1 ? 1 : m;
                 }
                 const size_t need = sph_arena_bytes(&c), bound = SPH_ARENA_BYTES(c.max_particles, cells, threads,
-                    bits) + 4 * flaws;
+                    bits | flow) + 4 * flaws;
                 assert_true(need > 0);
                 if (bound < need || (double)bound > 1.25 * (double)need + 65536)
                     fail_msg("%u particles, %g cells, %u threads, use %u: bound %zu, need %zu", c.max_particles, cells,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_flow.c: inflows and outflows: a uniform stream keeps its lattice to the last bit, books of mass and ids are exact
-   over many particles, a full capacity is a status and leaves the state, restarts in mid-layer, slices and threads change
-   nothing, energy is accounted for, and what is refused. */
+/* test_flow.c: inflows and outflows: a uniform stream keeps its lattice to the last bit, books of mass and ids are
+   exact over many particles, a full capacity is a status and leaves the state, restarts in mid-layer, slices and
+   threads change nothing, energy is accounted for, and what is refused. */
 #include "testing.h"
 
 #define DX 0.125 /* powers of two: masses add up exactly */
@@ -155,7 +155,50 @@ static void books_of_mass_and_ids_are_exact_over_many_particles(void **state)
         }
     }
     assert_true(check_books(sim, &c, first) >= wanted);
+    sph_usage u;
+    sph_get_usage(sim, &u);
+    const uint64_t more = 4 * c.max_particles + 512 + 130 * ROWS;
+    assert_true(u.step_work <= SPH_STEP_WORK(1, u.particles, u.cell_particles, u.cells) + more);
     assert_true(most <= (REACH + 2) * ROWS);
+}
+
+/* what is in an inflow or outflow keeps velocity and density, whatever forces, filters, damping and shifting want */
+static void what_flows_carry_keeps_velocity_and_density(void **state)
+{
+    static sph_particle was[20000];
+    for (uint32_t by = 0; by < SPH_INTEGRATORS; by++) {
+        sph_config c = channel(0.17, 20000);
+        uint32_t kept = 0;
+        c.integrator = by;
+        c.xsph = by % 2 ? 0.5 : 0;
+        c.shepard_every = 3;
+        c.damping = 0.999;
+        c.shifting = SPH_DIM > 1 ? 0.5 : 0;
+        c.sponge_low[0] = 2 * DX;
+        c.sponge_rate = 5;
+        sph_sim *sim = uneven_stream(&c, 1);
+        for (uint32_t k = 0; k < (SPH_DIM == 3 ? 8 : 40); k++) {
+            memset(was, 0, sizeof was);
+            for (uint32_t i = 0; i < sph_count(sim); i++) {
+                sph_particle p;
+                sph_get(sim, i, &p);
+                was[p.id] = p;
+            }
+            must(sim, sph_step(sim));
+            for (uint32_t i = 0; i < sph_count(sim); i++) {
+                sph_particle p;
+                sph_get(sim, i, &p);
+                if (p.set == 0 || was[p.id].set != p.set || p.mass == 0)
+                    continue;
+                close_to(p.rho, was[p.id].rho, 0);
+                for (int a = 0; a < SPH_DIM; a++)
+                    close_to(p.v[a], was[p.id].v[a], 0);
+                kept++;
+            }
+        }
+        assert_true(kept > 100);
+        free_sims(state);
+    }
 }
 
 static void a_full_capacity_is_a_status_that_says_the_need_and_leaves_the_state(void **state)
@@ -171,6 +214,7 @@ static void a_full_capacity_is_a_status_that_says_the_need_and_leaves_the_state(
         for (; k < 200 && st == SPH_OK; k++) {
             before = sph_hash(sim);
             st = sph_step(sim);
+            assert_true(sph_count(sim) <= room);
         }
         assert_int_equal(st, SPH_TOO_MANY_PARTICLES);
         const sph_report *r = sph_last(sim);
@@ -249,7 +293,7 @@ static void restarts_slices_and_threads_change_nothing(void **state)
     }
 }
 
-/* the balance of all books stays: what the flows do to water is wall_work, what comes and goes is fed and carried off */
+/* the balance of all books stays: what flows do to water is wall_work, what comes and goes is fed and carried off */
 static void energy_is_accounted_for(void **state)
 {
     for (uint32_t by = 0; by < SPH_INTEGRATORS; by++) {
@@ -328,6 +372,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         subject(a_uniform_stream_keeps_its_lattice_to_the_last_bit),
         subject(books_of_mass_and_ids_are_exact_over_many_particles),
+        subject(what_flows_carry_keeps_velocity_and_density),
         subject(a_full_capacity_is_a_status_that_says_the_need_and_leaves_the_state),
         subject(restarts_slices_and_threads_change_nothing),
         subject(energy_is_accounted_for),

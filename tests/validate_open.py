@@ -31,10 +31,11 @@ def weir_off(run):
 
 
 def weirs(quick):
-    sizes = (20,) if quick else (20, 30)
+    # the plate's edge is felt about a smoothing length too high: of first order, and steepest for low plates
     for w in (0.25, 0.5, 1, 1.5, 2, 3):
-        for n in sizes if w in (0.25, 1, 3) else sizes[:1]:
-            yield f"G8 w={w} n={n} angle", "degrees off exact", 2.0, [Run("weir", w=w, n=n)], weir_off
+        for n in (20,) if quick else (20, 50):
+            run = Run("weir", w=w, n=n, length=3, duration=12)
+            yield f"G8 w={w} n={n} angle", "degrees off exact", 2.0 if n == 50 else None, [run], weir_off
 
 
 # ---- G9: the jets of a whole tank ----

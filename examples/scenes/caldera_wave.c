@@ -14,7 +14,7 @@ enum { DEPTH = SCENE_COMMON, N, D2, W, LENGTH, WHOLE, LIFT, BEACH, SOUND, DURATI
 #define PARAMS_OF(n_, d2_, w_, length_, whole_, beach_, duration_)                                                    \
     {                                                                                                                 \
         SCENE_PARAMS_OF(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_HYDROSTATIC, SCENE_ADAMI, 1, 0, 1,  \
-                        SPH_KICK_DRIFT_KICK, 1.2, 1),                                                                 \
+                        SPH_KICK_DRIFT_KICK, 0.6, 1),                                                                 \
         {"depth", "m", "depth D of the water", 0.3, 1e-3, 1e4, SCENE_NUMBER},                                         \
         {"n", "-", "particles from floor to surface", n_, 6, 1000, SCENE_WHOLE},                                      \
         {"d2", "m", "height of the plates that stay; 0: none", d2_, 0, 1e4, SCENE_NUMBER},                            \

@@ -12,8 +12,8 @@
 enum { W = SCENE_COMMON, DEPTH, N, SPEED, LENGTH, SOUND, DURATION, PARAMS };
 
 static const scene_param param[PARAMS] = {
-    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 1.5, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_MOLTENI, SCENE_ADAMI, 1, 0, 0,
-                    SPH_KICK_DRIFT_KICK, 1, 1),
+    SCENE_PARAMS_OF(SPH_WENDLAND_C2, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_MOLTENI, SCENE_ADAMI, 1, 0, 0,
+                    SPH_KICK_DRIFT_KICK, 0.5, 1),
     {"w", "depth", "height of the plate", 1, 0.05, 10, SCENE_NUMBER},
     {"depth", "m", "depth of the stream", 0.3, 1e-6, 1e4, SCENE_NUMBER},
     {"n", "-", "particles across the stream", 20, 4, 1000, SCENE_WHOLE},
@@ -78,7 +78,8 @@ static void configure(const double *p, sph_config *c)
     c->hi[0] = jet[0];
     c->hi[1] = jet[1];
     c->max_particles = scene_capacity(scene_box_count(lo, water, dx) + scene_box_count(none, flight, dx) +
-                                      scene_wall_count(p, lo, plate, dx, SPH_LOW(1) | SPH_HIGH(0)) + 2 * m * m / (dx * dx));
+                                      scene_wall_count(p, lo, plate, dx, SPH_LOW(1) | SPH_HIGH(0)) +
+                                      2 * m * m / (dx * dx));
 }
 
 static sph_status build(sph_sim *sim, const double *p)
@@ -98,8 +99,8 @@ static sph_status build(sph_sim *sim, const double *p)
     return st ? st : sph_add_wall_box(sim, &w, foot, plate, SPH_HIGH(0), true, NULL);
 }
 
-static const char *const column[] = {"time_s", "angle_deg", "angle_of_velocity_deg", "angle_exact_deg", "jet_particles_-",
-                                     "mass_kg/m", "added_kg/m", "removed_kg/m"};
+static const char *const column[] = {"time_s", "angle_deg", "angle_of_velocity_deg", "angle_exact_deg",
+                                     "jet_particles_-", "mass_kg/m", "added_kg/m", "removed_kg/m"};
 
 /* the mean velocity of what is 2 to 4 depths off the plate's edge and goes away from it; returns how many */
 static double find_jet(const sph_sim *sim, const double *p, double *v)
