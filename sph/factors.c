@@ -215,7 +215,7 @@ const sph_factors *sph_pair_factors(const sph_sim *sim, sph_thread *t, uint32_t 
     const sph_set *i = &sim->set[t->home_set[h]], *j = ghosts ? i : t->of;
     const double c2 = i->c0 * i->c0 * (SPH_IS(i->eos, TAIT_GRAY) ? 7 : 1);
     *f = sim->fac;
-    f->most_inv_rho = (sph_real)(2 / i->rho0);
+    f->least_rho = (sph_real)(0.5 * i->rho0);
     f->av_alpha = (sph_real)(c->smoothing_length * c->alpha * (i->c0 + j->c0));
     if (SPH_HAS_DIFFUSION)
         f->diff = i->kin == j->kin ? (sph_real)(2 * c->delta * c->smoothing_length * i->c0) : 0;
