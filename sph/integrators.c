@@ -95,15 +95,15 @@ static const sph_pass pass_begin_look = {"begin look", NULL, NULL, begin_look, N
 /* ---- what modules do to particles, where nothing is summed ---- */
 
 /* wherever fields have advanced: back to where laws keep them */
-static void restrain(const sph_sim *sim, sph_span s)
+static void restrain(const sph_sim *sim, sph_span s, bool whole)
 {
     if (SPH_HAS_YIELD)
-        sph_yield(sim, s);
+        sph_yield(sim, s, whole);
 }
 /* wherever fields were taken from src, to be those of so much later: what laws make grow */
 static void grow(const sph_sim *sim, sph_span s, sph_real share)
 {
-    restrain(sim, s);
+    restrain(sim, s, true);
     if (SPH_HAS_DAMAGE)
         sph_grow_damage(sim, s, share * (sph_real)sim->dt);
 }
@@ -152,7 +152,7 @@ static void correct_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
     sph_correct_fields(sim, s);
-    restrain(sim, s);
+    restrain(sim, s, false);
     sph_correct(sim, s);
     sph_mend_drift(sim, s, t);
     finish(sim, chunk, s, t);

@@ -6,9 +6,10 @@
 
 #include "sweep.h"
 
-/* yield.c: returns stresses to the yield surface; after every advance of the stress */
+/* yield.c: returns stresses to the yield surface; after every advance of the stress. whole: they went all
+   the way from src, else only a correction of second order, and it has not settled yet */
 #define sph_yield SPH_NAME(yield_)
-void sph_yield(const sph_sim *sim, sph_span s);
+void sph_yield(const sph_sim *sim, sph_span s, bool whole);
 
 /* damage.c, before a stage settles: damage of src grows over dt into dst; what that let go of, a step from src to dst,
    into a chunk's row of the books, or null */

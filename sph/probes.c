@@ -160,6 +160,10 @@ static bool column_ends(const sph_sim *sim, const double *x, uint32_t axis, doub
             *high = !any || y > *high ? y : *high;
             any = true;
         }
+    if (any && SPH_IS(sim->cfg.face[axis][0], PERIODIC)) { /* images of either end are seen at the other */
+        *low = sim->cfg.lo[axis];
+        *high = sim->cfg.hi[axis];
+    }
     return any;
 }
 

@@ -220,7 +220,9 @@ enum { SPH_NO_SHEAR, SPH_NESTED, SPH_SMAGORINSKY, SPH_SMAGORINSKY_WICK, SPH_SHEA
    (rates, forces). LEAP_FROG: Powell 2012 algorithm 1.1, the same with velocities that are kept half a step ahead;
    where steps change they are kicked by the mean of two. After a change of gravity, of the body force's function, of
    walls, or sph_apply_field it starts anew. RUNGE_KUTTA: Wickramarachchi 3.85-3.87; RUNGE_KUTTA_MOMENTUM: his 3.91-3.92
-   (algebraically the same midpoint rule, rounded differently). */
+   (algebraically the same midpoint rule, rounded differently). In scenes with solids the predictor-corrector and
+   Runge-Kutta make sound of the shortest waves grow unless viscosity outruns it: their steps are as short as that asks
+   (factors.c). */
 enum {
     SPH_PREDICTOR_CORRECTOR,
     SPH_KICK_DRIFT_KICK,

@@ -94,6 +94,7 @@ static void the_books_of_a_piston_close(void **state)
 /* ---- solids ---- */
 
 #if SPH_DIM > 1
+static double free_step; /* a fixed step instead of the controlled one, by h/c, c 23.7 m/s */
 static double drift_of_collision(uint32_t form, uint32_t integrator, double share)
 {
     sph_config c = open_config(1, DX);
@@ -108,6 +109,7 @@ static double drift_of_collision(uint32_t form, uint32_t integrator, double shar
     c.viscosity = SPH_INVISCID;
     c.books = true;
     c.cfl *= share;
+    c.dt = free_step * share * c.smoothing_length / 23.7;
     c.max_particles = MOST;
     c.max_stretch = form == SPH_TOTAL ? 1.5 : c.max_stretch;
     sph_sim *sim = new_sim(&c);
@@ -136,19 +138,21 @@ static void solids_collide_and_keep_their_energy(void **state)
     uint32_t bad = 0;
     (void)state;
     for (uint32_t form = SPH_UPDATED; form <= SPH_TOTAL; form++)
-        for (uint32_t i = SPH_PREDICTOR_CORRECTOR; i <= SPH_LEAP_FROG; i++)
+        for (uint32_t i = SPH_PREDICTOR_CORRECTOR; i < SPH_RUNGE_KUTTA_MOMENTUM; i++)
             bad += drift_of_collision(form, i, 1) <= 1e-3 ? 0 : 1;
     assert_int_equal(bad, 0);
 }
 
-/* Runge-Kutta's midpoint rule multiplies an oscillation w by 1 + (w dt)^4/8 a step, and nothing here takes that away:
-   the drift of a run falls as the third power of the step. */
+/* Runge-Kutta's rule of the middle multiplies an oscillation w by 1 + (w dt)^4/8 a step, and nothing here takes that
+   away: the drift of a run goes as the third power of the step. The step control keeps it small (sph/factors.c). */
 static void without_viscosity_runge_kutta_gains_by_its_own_rule(void **state)
 {
     (void)state;
     for (uint32_t form = SPH_UPDATED; form <= SPH_TOTAL; form++) {
+        free_step = 0.25;
         const double whole = drift_of_collision(form, SPH_RUNGE_KUTTA, 1);
         assert_true(drift_of_collision(form, SPH_RUNGE_KUTTA, 0.5) < whole / 4);
+        free_step = 0;
     }
 }
 #endif

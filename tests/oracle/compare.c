@@ -253,8 +253,8 @@ static void compare_gauges(const sph_sim *sim, o_scene *s, const double *x, uint
 #endif
 }
 
-/* From half a spacing above the bed on no quarter of a spacing may be dry below the surface, and there cover passes 1/2,
-   unless it does so nowhere below a face with images; or that half spacing is dry, and it is the bed. */
+/* From half a spacing above the bed on no quarter of a spacing may be dry below the surface, and there cover passes
+   1/2, unless it does so nowhere below a face with images; or that half spacing is dry, and it is the bed. */
 static void compare_surface(const sph_sim *sim, o_scene *s, const double *bed, uint32_t axis)
 {
     enum { PARTS = 8 };

@@ -16,7 +16,9 @@
 static double printed(const o_scene *s, const o_particle *i, const o_particle *j)
 {
     const double least = 1e-6 * s->cfg.rho0 * s->cfg.sound_speed * s->cfg.sound_speed;
-    o_close((o_scene *)s, "a pressure nearly too small to divide by", fabs(i->p), least, o_max(least, fabs(i->p)));
+    /* p's own errors are relative to rho0 c0^2 */
+    o_close((o_scene *)s, "a pressure nearly too small to divide by", fabs(i->p), least,
+            o_max(1e3 * least, fabs(i->p)));
     if (fabs(i->p) <= least)
         return 1;
     if (s->cfg.scheme == SPH_WEAK_WICK)

@@ -204,6 +204,7 @@ void o_contact(const o_scene *s, o_particle *i, const o_particle *j, const o_pai
 void o_tensile_part(o_scene *s, const double (*sigma)[3], bool principal, double (*r)[3]); /* principal.c */
 double o_largest_principal(const double (*sigma)[3], bool plane);
 void o_yield(o_scene *s);                                                                  /* yield.c */
+void o_yield_from(const o_scene *s, o_particle *p, const double (*from)[3]); /* that went from there to p->dev */
 double o_grown_root(o_scene *s, const o_particle *i, const float *flaw, uint32_t flaws, double dt); /* damage.c */
 double o_sponge(const o_scene *s, const o_particle *i);                                    /* sponge.c: S */
 void o_quiet(const o_scene *s, o_particle *i, double rate); /* damper.c; rate: of the excess, 1/s */

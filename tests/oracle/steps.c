@@ -260,9 +260,14 @@ static void foresee_damage(o_scene *s, double dt, uint32_t (*flaws_of)(uint32_t 
 
 static void restrain(o_scene *s)
 {
-    for (uint32_t i = 0; i < s->n; i++) /* yielding starts from what had yielded at the beginning of a whole step */
+    for (uint32_t i = 0; i < s->n; i++) { /* yielding starts from what had yielded at the beginning of a whole step */
+        double from[3][3];
+        for (int k = 0; k < 9; k++)
+            from[k / 3][k % 3] = mirrored(&was[i], k / 3, k % 3, was[i].dev[k / 3][k % 3]);
         s->own[i].plastic = was[i].plastic;
-    o_yield(s);
+        o_yield_from(s, &s->own[i], (const double(*)[3])from);
+    }
+    o_refresh(s);
 }
 
 /* places, velocities, densities and stresses by shares of the step from what was */

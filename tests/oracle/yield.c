@@ -25,6 +25,26 @@ static void restrain(const o_scene *s, o_particle *p)
             p->dev[k][l] *= f;
 }
 
+void o_yield_from(const o_scene *s, o_particle *p, const double (*from)[3])
+{
+    o_particle one = *p, two = *p;
+    if (s->cfg.yield == SPH_NO_YIELD || !o_is_solid(s, p) || !(s->set[p->set].yield > 0))
+        return;
+    restrain(s, &one);
+    for (int k = 0; k < 9; k++)
+        two.dev[k / 3][k % 3] = 0.5 * (from[k / 3][k % 3] + p->dev[k / 3][k % 3]);
+    restrain(s, &two);
+    for (int k = 0; k < 9; k++)
+        two.dev[k / 3][k % 3] += 0.5 * (p->dev[k / 3][k % 3] - from[k / 3][k % 3]);
+    restrain(s, &two);
+    const bool printed = s->cfg.yield == SPH_VON_MISES_GRAY;
+    for (int k = 0; k < 9; k++)
+        p->dev[k / 3][k % 3] = (printed ? 0 : 2 * two.dev[k / 3][k % 3]) + (printed ? 1 : -1) * one.dev[k / 3][k % 3];
+    p->plastic = printed ? one.plastic : o_max(2 * two.plastic - one.plastic, p->plastic);
+    if (!printed)
+        restrain(s, p);
+}
+
 void o_yield(o_scene *s)
 {
     for (uint32_t i = 0; i < s->n && s->cfg.yield != SPH_NO_YIELD; i++)
