@@ -43,7 +43,7 @@ static double solids_stand(const sph_config *c)
         d += c->alpha / 8;
     const double x = d / PC_DISSIPATION;
     const double stands = x < 1e-3 ? 0 : x > 1e6 ? PC_COURANT * 100 : PC_COURANT * cube_root(x);
-    const double own = stands * (sph_corrects(c) ? PC_CORRECTED : PC_UPDATED);
+    const double own = stands * (sph_corrects(c) || sph_normalises(c) ? PC_CORRECTED : PC_UPDATED);
     return own < PC_COURANT_LEAST ? PC_COURANT_LEAST : own;
 }
 

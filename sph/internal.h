@@ -140,7 +140,7 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-#define SPH_MAX_PROGRAM 48u
+#define SPH_MAX_PROGRAM (SPH_HAS_STABILISED || SPH_HAS_NORMALISED || SPH_HAS_HOURGLASS ? 80u : 48u)
 
 struct sph_sim {
     sph_config cfg;
