@@ -23,6 +23,7 @@ typedef struct bits_case {
     bool shifting;
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
+    bool hourglass;
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -148,6 +149,23 @@ static const bits_case bits_cases[] = {
     {"large_eddies_no_slip", CASE_BASE, .shear = SPH_SMAGORINSKY_WICK, .face = SPH_MIRROR_NO_SLIP, .books = true},
     {"large_eddies_periodic", CASE_BASE, .shear = SPH_SMAGORINSKY, .face = SPH_PERIODIC,
      .integrator = SPH_LEAP_FROG},
+    /* forms of solids */
+    {"stabilised", CASE_SOLID, .solid = SPH_STABILISED},
+    {"stabilised_kick_drift_kick", CASE_SOLID, .solid = SPH_STABILISED, .integrator = SPH_KICK_DRIFT_KICK,
+     .xsph = true, .hat = true, .yield = SPH_VON_MISES, .held = true, .books = true},
+    {"stabilised_weak", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST,
+     .solid = SPH_STABILISED, .scheme = SPH_WEAK, .integrator = SPH_RUNGE_KUTTA, .beside = true},
+    {"stabilised_symmetry", CASE_SOLID, .solid = SPH_STABILISED, .face = SPH_SYMMETRY,
+     .integrator = SPH_LEAP_FROG},
+    {"normalised", CASE_SOLID, .solid = SPH_NORMALISED, .integrator = SPH_LEAP_FROG, .held = true, .books = true},
+    {"normalised_corrected", CASE_BASE, .solid = SPH_NORMALISED_CORRECTED, .beside = true,
+     .integrator = SPH_KICK_DRIFT_KICK},
+    {"normalised_corrected_periodic", CASE_SOLID, .solid = SPH_NORMALISED_CORRECTED, .face = SPH_PERIODIC,
+     .scheme = SPH_WEAK, .yield = SPH_VON_MISES},
+    {"hourglass", CASE_SOLID, .solid = SPH_TOTAL, .integrator = SPH_KICK_DRIFT_KICK, .hourglass = true,
+     .books = true, .held = true},
+    {"hourglass_symmetry", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = CASE_NO_WALL,
+     .solid = SPH_TOTAL, .damage = SPH_BENZ_ASPHAUG, .face = SPH_SYMMETRY, .hourglass = true},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -201,6 +219,7 @@ static sph_config case_config(const bits_case *b)
     c.diffusion = b->diffusion;
     c.gradient = b->gradient;
     c.shear = b->shear;
+    c.hourglass = b->hourglass ? 0.1 : 0;
     c.integrator = b->integrator;
     c.xsph = b->xsph ? 0.5 : 0;
     c.shepard_every = b->shepard ? 3 : 0;

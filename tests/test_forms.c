@@ -221,8 +221,9 @@ static void what_hourglass_control_stores_comes_back(void **state)
 /* ---- which form fails ---- */
 
 #if SPH_DIM == 2 && SPH_DOUBLE
-/* by how much the speed of a push of 1e-8 grows in a periodic square under volume strain V/V0 (tension above 1) */
-static double growth(uint32_t form, double volume)
+/* by how much the speed of a push of 1e-8 grows in a periodic square under volume strain V/V0 (tension above 1); alpha:
+   artificial viscosity */
+static double growth(uint32_t form, double volume, double alpha)
 {
     sph_config c = periodic_config(1.2, DX);
     const sph_solid rock = {.shear = 0.22 * RHO * 400, .rho0 = RHO * volume};
@@ -231,7 +232,8 @@ static double growth(uint32_t form, double volume)
     sph_totals t;
     c.kernel = SPH_CUBIC;
     c.smoothing_length = 1.3 * DX;
-    c.viscosity = SPH_INVISCID;
+    c.viscosity = SPH_ARTIFICIAL;
+    c.alpha = alpha;
     c.eos = SPH_LINEAR;
     c.solid = form;
     c.integrator = SPH_KICK_DRIFT_KICK;
@@ -254,17 +256,26 @@ static double growth(uint32_t form, double volume)
     return sqrt(t.kinetic / start);
 }
 
+/* Uniform stress does nothing to the normalised forms, whose gradients of a constant vanish wherever particles are
+   (Powell 2012 figure 4.2 has NCSPH grow), nor to bonds. The stabilised form, whose pairs are made antisymmetric, keeps
+   a small part of the instability, which a viscosity holds that does not hold the plain form; in compression it is the
+   plain form. */
 static void forms_fail_in_the_swegle_test_where_they_must(void **state)
 {
     (void)state;
-    assert_true(growth(SPH_UPDATED, 1.05) > 100);
-    assert_true(growth(SPH_CORRECTED, 1.05) > 100);
-    assert_true(growth(SPH_NORMALISED, 1.05) > 100);
-    assert_true(growth(SPH_NORMALISED_CORRECTED, 1.05) > 100);
-    assert_true(growth(SPH_STABILISED, 1.05) < 3);
-    assert_true(growth(SPH_STABILISED, 0.97) < 3);
-    assert_true(growth(SPH_TOTAL, 1.05) < 3);
-    assert_true(growth(SPH_TOTAL, 0.97) < 3);
+    static const uint32_t plain[] = {SPH_UPDATED, SPH_CORRECTED}, quiet[] = {SPH_NORMALISED, SPH_NORMALISED_CORRECTED,
+                                                                             SPH_TOTAL};
+    for (int k = 0; k < 2; k++) {
+        assert_true(growth(plain[k], 1.05, 0) > 1e3);
+        assert_true(growth(plain[k], 1.05, 0.5) > 1e3);
+        assert_true(growth(plain[k], 0.95, 0.5) < 1);
+    }
+    for (int k = 0; k < 3; k++)
+        for (int side = -1; side < 2; side += 2)
+            assert_true(growth(quiet[k], 1 + 0.05 * side, 0) < 3);
+    assert_true(growth(SPH_STABILISED, 1.05, 0) < 1e-3 * growth(SPH_UPDATED, 1.05, 0));
+    assert_true(growth(SPH_STABILISED, 1.05, 0.5) < 1);
+    assert_true(growth(SPH_STABILISED, 0.95, 0.5) < 1);
 }
 #endif
 

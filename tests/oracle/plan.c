@@ -377,6 +377,8 @@ void plan_draw(plan *p, uint64_t seed)
     for (uint32_t k = 0; k < p->solids; k++)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
     draw_tables(p);
+    if (p->cfg.solid >= SPH_NORMALISED) /* forces and rates of near-singular sums make rounding errors grow */
+        p->steps = (uint32_t)o_min(p->steps, 4);
     p->cfg.hourglass = p->cfg.solid == SPH_TOTAL && chance(0.4) ? range(0.01, 1) : 0;
 }
 
