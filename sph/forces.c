@@ -104,7 +104,7 @@ SPH_INLINE void momentum(const sph_choice *c, const sph_near *p, vreal *s)
     }
 }
 
-/* the force of a pair of bodies in the stabilised form */
+/* what a pair of bodies has beside in the stabilised form */
 SPH_INLINE void stabilise(const at_home *o, sph_near *p, vreal *s)
 {
     if (!sph_stabilised(o->c) || p->wall || !sph_takes_forces(o->c))

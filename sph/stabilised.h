@@ -9,13 +9,12 @@
      w_ij   = (1 + [level_j > level_i] - [level_j < level_i]) times 1 within the support, 0 beyond
 
    w counts neighbours deeper inside twice, those further out not at all (figure 4.3). At the support's end it falls
-   over a tenth of h: counts that jump would hang on rounding. The difference between C_ij and V_j a_ij acts on the
-   components of the force along axes in tension (`on`: sum of sigma_kk of the neighbours above 0), never on the
-   outermost layer (4.17). Each pair's force is made antisymmetric, with masses, so momentum stays (the printed form
-   keeps it for equal masses only):
+   over a tenth of h: counts that jump would hang on rounding. What C_ij has beside V_j a_ij is added to the force of
+   the plain form (4.13-4.15), on components along axes in tension (`on`: sum of sigma_kk of the neighbours above 0),
+   never of the outermost layer (4.17). Each pair's force is made antisymmetric (algorithm 4.2), with masses, so momentum
+   stays (the printed form keeps it for equal masses only):
 
-     a_i,k -= sum_j m_j sum_l (T_i + T_j)_kl (B_ij + on_i,k (C_ij/V_j - a_ij) - on_j,k (C_ji/V_i - a_ji))_l/2,
-     B_ij = a_ij - a_ji
+     a_i,k -= sum_j m_j sum_l (T_i + T_j)_kl (g x_ij + (on_i,k (C_ij/V_j - a_ij) - on_j,k (C_ji/V_i - a_ji))/2)_l
 
    Energy is not kept: `unbalanced` in the books. Of fluids S = 1, D = 0 and nothing is on. */
 #ifndef SPH_STABILISED_H
@@ -57,7 +56,7 @@ typedef struct sph_stabilised_near {
     const sph_real *col;
 } sph_stabilised_near;
 typedef struct sph_stabilised_home {
-    vreal u, d[SPH_DIM], level, col[SPH_DIM], e[SPH_DIM], on[SPH_DIM];
+    vreal level, col[SPH_DIM], e[SPH_DIM], on[SPH_DIM];
     vreal each; /* 1/V_i (1/m^DIM) */
 } sph_stabilised_home;
 
@@ -81,12 +80,10 @@ SPH_INLINE sph_stabilised_home sph_spread_stabilised(const sph_sim *sim, const s
     const sph_mean_homes *const mean = (const void *)sph_home_columns_of(sim, t, SPH_COLUMN_means);
     const sph_real *const col = sph_home_columns_of(sim, t, SPH_COLUMN_drawn);
     sph_stabilised_home o;
-    o.u = v_set(edge->u[h]);
     o.level = v_set(edge->level[h]);
     o.each = v_set(t->home.rho[h] / t->home.m[h]);
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        o.d[k] = v_set(edge->d[k][h]);
         o.col[k] = v_set(col[k * SPH_HOME_ROOM + h]);
         o.e[k] = v_set(mean->e[k][h]);
         o.on[k] = v_set(mean->on[k][h]);
@@ -103,21 +100,18 @@ SPH_INLINE vreal sph_stabilised_count(vreal reach, vreal q, vreal own, vreal oth
     return within * (one + deeper);
 }
 
-/* The force of a pair of bodies, in place of sph_stress_push; w: 1, or 1/(rho_i rho_j) in the weak scheme. All gradients
-   have the scale of k_slope: W is multiplied by f->value_slope, col and e were divided by the kernel's slope. */
-SPH_INLINE void sph_stabilised_push(const sph_choice *c, const sph_factors *f,
-                                    const sph_stress_home *st, const sph_stress_tile *t, const sph_stabilised_home *h,
+/* What a pair of bodies adds to sph_stress_push; w: 1, or 1/(rho_i rho_j) in the weak scheme. Gradients have the scale of
+   k_slope: col and e were divided by the kernel's slope. */
+SPH_INLINE void sph_stabilised_push(const sph_choice *c, const sph_factors *f, const sph_stress_home *st,
+                                    const sph_stress_tile *t, const sph_stabilised_home *h,
                                     const sph_stabilised_near *n, sph_near *p, vreal w, vreal *s)
 {
     const uint32_t j = p->j;
-    const vreal m = v_load(p->tile->m + j), mw = k_value(c->kernel, p->q) * m * f->value_slope;
-    const vreal mg = p->mg * (h->u + v_load(n->edge->u + j));
-    vreal back, half = v_set((sph_real)0.5) * w, vector[SPH_DIM], own[SPH_DIM], other[SPH_DIM];
+    const vreal m = v_load(p->tile->m + j), each = h->each * m;
+    vreal back, half = v_set((sph_real)0.5) * w, own[SPH_DIM], other[SPH_DIM];
     const vreal count = sph_stabilised_count(v_set(f->reach), p->q, h->level, v_load(n->edge->level + j), &back);
-    const vreal each = h->each * m;
     SPH_UNROLL
     for (uint32_t l = 0; l < SPH_DIM; l++) {
-        vector[l] = mg * p->kx[l] - mw * (h->d[l] - v_load(n->edge->d[l] + j));
         own[l] = count * (p->rho * h->e[l] + m * v_load(n->col + l * SPH_NEAR_ROOM + j));
         other[l] = back * (each * v_load(n->mean->e[l] + j) + m * h->col[l]);
     }
@@ -127,9 +121,9 @@ SPH_INLINE void sph_stabilised_push(const sph_choice *c, const sph_factors *f,
         vreal a = v_set(0);
         SPH_UNROLL
         for (int l = 0; l < SPH_DIM; l++)
-            a = a + sph_stress_sum(c, st, t, p, k, l, v_set(0)) * (vector[l] - on * own[l] + theirs * other[l]);
-        p->push[k] = a * half;
-        s[SUM_ACC + k] = s[SUM_ACC + k] + p->push[k];
+            a = a + sph_stress_sum(c, st, t, p, k, l, v_set(0)) * (theirs * other[l] - on * own[l]);
+        p->push[k] = p->push[k] + a * half;
+        s[SUM_ACC + k] = s[SUM_ACC + k] + a * half;
     }
 }
 

@@ -163,7 +163,7 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
         fn = sph_small_power(k_value(c->kernel, p->q) * f->inv_wdx, c->repulsion);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
-        if (sph_takes_forces(c) && (!sph_stabilised(c) || p->wall)) /* else stabilised.h does */
+        if (sph_takes_forces(c))
             sph_stress_push(c, h, t, p, k, fn, w, s);
         if (!sph_takes_rates(c) && !(SPH_WITH_BOOKS && c->books)) /* books ask for the gradient too */
             continue;

@@ -79,8 +79,11 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real leas
         }
 }
 
-/* standard rates ask for no pressure */
-static bool needs_press(const sph_sim *sim) { return sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD); }
+/* standard rates ask for no pressure; normalised kernels do, for the densities of walls */
+static bool needs_press(const sph_sim *sim)
+{
+    return sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD) || sph_normalises(&sim->cfg);
+}
 
 /* whether what is seen half a step back went with XSPH's velocity too (motion.h) */
 SPH_INLINE bool drifts_beside(const sph_candidates *r, bool wall)

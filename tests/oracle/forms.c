@@ -2,7 +2,7 @@
 /* forms.c: forms of solids beside those of sph.h's first three, V = m/rho:
      stabilised   C_ij = V_j a_ij - w_ij (row_i - mean_i + col_j) with a_ij the gradient of the kernel over its first sums
                   (Powell 2012 4.9, 4.18), row, col, mean, w, levels and the switch as sph/stabilised.h has them; each
-                  pair by half of C_ij/V_j - C_ji/V_i
+                  pair g x_ij and half of what C_ij/V_j - C_ji/V_i has beside a_ij - a_ji
      normalised   grad W~, and grad W^ = M^-T grad W~ (his 1.14, 1.19): L by volumes, the force with the own gradient
      hourglass    F = M A^-1 of the bonds, a_i += sum m_j g (k_i (x_ij - F_i K) + k_j (x_ij - F_j K)), k = hourglass
                   E/rho0^2 (1 - D)
@@ -253,13 +253,12 @@ double o_stabilised_gradient(const o_scene *s, const o_particle *i, const o_part
     const double count = count_of(s, i, j, p), back = count_of(s, j, i, p);
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = 0; l < SPH_DIM; l++) {
-            grad[k][l] = gradient_at(i, p, l, 1) - gradient_at(j, p, l, -1);
+            grad[k][l] = 0;
             grad[k][l] -= i->on[k] ? count * (i->row[l] / vj + j->drawn[l]) : 0;
             grad[k][l] += j->on[k] ? back * (j->row[l] / vi + i->drawn[l]) : 0;
-            grad[k][l] /= 2;
+            grad[k][l] = grad[k][l] / 2 + p->g * p->x[l];
         }
-    return magnitude_at(i, p) + magnitude_at(j, p) + 2 * (i->row_scale / vj + j->row_scale / vi) +
-           2 * (i->drawn_scale + j->drawn_scale);
+    return p->slope + 2 * (i->row_scale / vj + j->row_scale / vi + i->drawn_scale + j->drawn_scale);
 }
 
 void o_hourglass(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p)
