@@ -71,7 +71,8 @@ double sph_courant_factor(const sph_config *c)
 static bool loses_energy(const sph_config *c)
 {
     bool loses = SPH_IS(c->scheme, DIRECT) || SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK) ||
-        sph_smooths_strain(c) || sph_stabilises(c) || sph_normalises(c) || (sph_sums_density(c) && sph_weak_scheme(c->scheme));
+        sph_smooths_strain(c) || sph_stabilises(c) || sph_normalises(c) ||
+        (sph_sums_density(c) && sph_weak_scheme(c->scheme));
     for (uint32_t k = 0; k < SPH_DIM; k++) /* images that move along the face */
         loses |= SPH_IS(c->face[k][0], MIRROR_NO_SLIP) || SPH_IS(c->face[k][1], MIRROR_NO_SLIP);
     return loses;
@@ -146,7 +147,8 @@ static void make_levels(const sph_config *c, sph_factors *f)
         for (int32_t a = -second; a <= second; a++)
             for (int32_t b = -third; b <= third; b++) {
                 double w, slope;
-                sph_kernel_value(c->kernel, __builtin_sqrt(m * m + a * a + b * b) * dx, c->smoothing_length, &w, &slope);
+                const double r = __builtin_sqrt(m * m + a * a + b * b) * dx;
+                sph_kernel_value(c->kernel, r, c->smoothing_length, &w, &slope);
                 layer[m] += w * volume;
             }
         full += m ? 2 * layer[m] : layer[m];

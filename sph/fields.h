@@ -49,7 +49,7 @@ typedef sph_int sph_pos;
     X(damage, sph_real, 1, "1", sph_damages(c), SPH_CARRIED | SPH_SHARE) /* D^(1/SPH_DIM) */                      \
     X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c), SPH_DISPLACED | SPH_VECTOR) /* since the start */      \
     X(quadrature, sph_real, 1, "1", sph_weighs_faces(c), SPH_CARRIED | SPH_NOT_NEGATIVE) /* phi; 0: 1 */       \
-    X(filled, sph_real, 1, "1", sph_stabilises(c), SPH_CARRIED | SPH_NOT_NEGATIVE) /* S of the first forces; 0: not yet */ \
+    X(filled, sph_real, 1, "1", sph_stabilises(c), SPH_CARRIED | SPH_NOT_NEGATIVE) /* S */ \
     X(slant, sph_real, SPH_DIM, "1/m", sph_stabilises(c), SPH_CARRIED | SPH_VECTOR) /* D */               \
     X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: an index into src */              \
     X(set, uint8_t, 1, "1", true, SPH_PLACED)                                                                     \

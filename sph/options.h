@@ -128,7 +128,7 @@
                                                                                                                       \
     /* solids; fluids may be beside them, and take part in the same sums */                                           \
     O(A, solid, CHOICE, SPH_NO_SOLID, 0, SPH_SOLIDS, SPH_SOLIDS_IN, "one of SPH_NO_SOLID .. SPH_NORMALISED_CORRECTED", \
-      FIXED, "-", "solid form: none updated corrected total stabilised normalised normalised_corrected")                                                                     \
+      FIXED, "-", "solid form: none updated corrected total stabilised normalised normalised_corrected") \
     O(A, yield, CHOICE, SPH_NO_YIELD, 0, SPH_YIELDS, SPH_YIELDS_IN, "one of SPH_NO_YIELD .. SPH_VON_MISES_GRAY",      \
       FIXED, "-", "yield: none von_mises von_mises_gray")                                                             \
     O(A, damage, CHOICE, SPH_NO_DAMAGE, 0, SPH_DIM == 1 ? 1 : SPH_DAMAGES, SPH_DAMAGES_IN,                            \

@@ -11,8 +11,8 @@
    w counts neighbours deeper inside twice, those further out not at all (figure 4.3). At the support's end it falls
    over a tenth of h: counts that jump would hang on rounding. What C_ij has beside V_j a_ij is added to the force of
    the plain form (4.13-4.15), on components along axes in tension (`on`: sum of sigma_kk of the neighbours above 0),
-   never of the outermost layer (4.17). Each pair's force is made antisymmetric (algorithm 4.2), with masses, so momentum
-   stays (the printed form keeps it for equal masses only):
+   never of the outermost layer (4.17). Each pair's force is made antisymmetric (algorithm 4.2), with masses, so
+   momentum stays (the printed form keeps it for equal masses only):
 
      a_i,k -= sum_j m_j sum_l (T_i + T_j)_kl (g x_ij + (on_i,k (C_ij/V_j - a_ij) - on_j,k (C_ji/V_i - a_ji))/2)_l
 
@@ -100,8 +100,8 @@ SPH_INLINE vreal sph_stabilised_count(vreal reach, vreal q, vreal own, vreal oth
     return within * (one + deeper);
 }
 
-/* What a pair of bodies adds to sph_stress_push; w: 1, or 1/(rho_i rho_j) in the weak scheme. Gradients have the scale of
-   k_slope: col and e were divided by the kernel's slope. */
+/* What a pair of bodies adds to sph_stress_push; w: 1, or 1/(rho_i rho_j) in the weak scheme. Gradients have the
+   scale of k_slope: col and e were divided by the kernel's slope. */
 SPH_INLINE void sph_stabilised_push(const sph_choice *c, const sph_factors *f, const sph_stress_home *st,
                                     const sph_stress_tile *t, const sph_stabilised_home *h,
                                     const sph_stabilised_near *n, sph_near *p, vreal w, vreal *s)

@@ -149,7 +149,7 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool ho
     /* of rates the equation of state does not matter */
     const uint32_t eos = press ? r->set->eos : SPH_TAIT;
     const bool usual = SPH_WITH_FAST_PATHS && (SPH_IS(c->scheme, STANDARD) || !press) && !r->im->is_image &&
-                       !drifts_beside(r, wall);
+                       !drifts_beside(r, wall) && (!sph_normalises(c) || sph_sums_forces(r->sim));
     (void)copied;
 #define SPH_FAST_TRY(name, eos_, floor_, inv_rho_, press_, wall_, copied_)                                         \
     if (usual && eos == SPH_##eos_ && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) &&           \

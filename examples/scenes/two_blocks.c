@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* two_blocks.c: the halves of one block are driven together or apart (Powell 2012 section 4.4.1, his figure 4.5), or
    the end of a bar into the rest of it (4.4.2). rho 7.8 g/cm^3, Young's modulus 2.1 (g, cm, us), Poisson's ratio 0.3:
-   K 1.75, mu 0.46154 K, c0 0.47367 cm/us; 0.06 cm/us is 0.12667 c0. The sizes of his block are lost: 1.0 x 0.4 cm, that of
-   the finite elements (tests/refdata/powell_impact_*.csv); particle A stands 0.1 cm above the middle. The bar: 2.0 x
+   K 1.75, mu 0.46154 K, c0 0.47367 cm/us; 0.06 cm/us is 0.12667 c0. The sizes of his block are lost: 1.0 x 0.4 cm, that
+   of the finite elements (tests/refdata/powell_impact_*.csv); particle A stands 0.1 cm above the middle. The bar: 2.0 x
    0.2 cm, of which a quarter moves. */
 #include "solid.h"
 #if SPH_DIM == 2

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* forms.c: forms of solids beside those of sph.h's first three, V = m/rho:
-     stabilised   C_ij = V_j a_ij - w_ij (row_i - mean_i + col_j) with a_ij the gradient of the kernel over its first sums
+     stabilised   C_ij = V_j a_ij - w_ij (row_i - mean_i + col_j), a_ij the gradient of the kernel over its first sums
                   (Powell 2012 4.9, 4.18), row, col, mean, w, levels and the switch as sph/stabilised.h has them; each
                   pair g x_ij and half of what C_ij/V_j - C_ji/V_i has beside a_ij - a_ji
      normalised   grad W~, and grad W^ = M^-T grad W~ (his 1.14, 1.19): L by volumes, the force with the own gradient
@@ -10,7 +10,7 @@
 #include "oracle.h"
 
 static bool stabilises(const o_scene *s) { return s->cfg.solid == SPH_STABILISED; }
-bool o_normalises(const o_scene *s) { return s->cfg.solid == SPH_NORMALISED || s->cfg.solid == SPH_NORMALISED_CORRECTED; }
+bool o_normalises(const o_scene *s) { return s->cfg.solid >= SPH_NORMALISED; }
 
 /* S of a particle r rows below a flat face of a lattice */
 static double row_sum(const o_scene *s, int r)

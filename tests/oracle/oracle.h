@@ -75,8 +75,8 @@ typedef struct o_particle {
     double pull[3][3];         /* artificial stress R */
     double cover;              /* Q of the quadrature weights */
     o_sum phi;                 /* the weight; 0: 1 */
-    /* forms.c. Stabilised: S and D of the first forces, level, row - mean, col/V, axes in tension; normalised: N in mapped, q
-       in slant; hourglass: F, k; the others are scales */
+    /* forms.c. Stabilised: S and D of the first forces, level, row - mean, col/V, axes in tension; normalised: N in
+       mapped, q in slant; hourglass: F, k; the others are scales */
     double fill, slant[3], row[3], drawn[3], row_scale, drawn_scale, mapped[3][3], deform[3][3], stiff, deform_scale;
     int level;
     bool on[3];
