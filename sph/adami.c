@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* adami.c: Adami's walls: pressure, and for no slip velocity, extrapolated from the bodies into wall particles, with
+/* adami.c: Adami's walls: pressure, and for no slip velocity, extrapolated from the matter into wall particles, with
    W = W(x_wf):
 
      p_w = (sum p_f W + (g - a_w) . sum rho_f x_wf W)/sum W,   v_w = 2 v_wall - sum v_f W/sum W
@@ -45,9 +45,9 @@ static void adami_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
     const bool ratio = !sph_weak_scheme(sim->cfg.scheme);
     (void)role;
     if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && ratio)
-        sph_gather_by(SPH_WENDLAND_C2, sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &standard);
+        sph_gather_by(SPH_WENDLAND_C2, sim, t, &t->matter, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &standard);
     else
-        sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &ratio);
+        sph_gather_tile(sim, t, &t->matter, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &ratio);
 }
 
 static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -71,7 +71,7 @@ static void adami_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void adami_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {adami_home,   SPH_BODIES, SPH_SUM_MASK(0, SUMS), false, 0, adami_tile,
+    static const sph_sweep w = {adami_home,   SPH_MATTER, SPH_SUM_MASK(0, SUMS), false, 0, adami_tile,
                                 adami_finish, 0,          0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

@@ -19,7 +19,7 @@ _Static_assert(sizeof 1.0 == sizeof(double), "sph must not be built with -fsingl
 /* every object of the kernel: sph/NAME.c */
 #define SPH_OBJECTS(X)                                                                                            \
     X(adami) X(arithmetic) X(bodies) X(boundary) X(carry) X(columns) X(config) X(correction) X(crossing)           \
-    X(damage) X(density) X(digest) X(dmath) X(dump) X(eos) X(faces) X(factors) X(fields) X(flaws) X(forces)        \
+    X(damage) X(density) X(digest) X(dmath) X(dump) X(eos) X(faces) X(factors) X(fields) X(finish) X(flaws) X(forces) \
     X(format) X(gradient) X(grid) X(groups) X(hash) X(init) X(initial) X(inspect) X(integrators) X(kernels)        \
     X(layers) X(layout) X(mirror) X(mls) X(move) X(neighbours) X(options) X(powers) X(probes) X(quadrature)        \
     X(reading) X(records) X(reference) X(report) X(restore) X(run) X(settle) X(setup) X(shapes) X(shear)           \

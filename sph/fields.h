@@ -26,7 +26,7 @@ typedef sph_int sph_pos;
 /* The one list of state fields:
      name, element type, components, unit, condition on the configuration `c`, and how it goes through a step:
        SPH_PLACED     the sort itself moves and advances it (what a cell is found by, and what the sweep reads at once)
-       SPH_SUMMED     the force sweep writes it for every body; walls get zeros
+       SPH_SUMMED     the force sweep writes it for all matter; walls get zeros
        SPH_RATE       zero after the sort, then whatever the passes of the stage write
        SPH_CARRIED    goes with its particle unchanged, until a pass of its own changes it
        SPH_DISPLACED  carried, and gains what the particle moved (quanta; component k is along axis k)

@@ -72,7 +72,7 @@ static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 
 static void gradient_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {sph_body_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(0, SPH_NT),
+    const sph_sweep w = {sph_matter_home, SPH_MATTER | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(0, SPH_NT),
                          sph_weak_scheme(sim->cfg.scheme), 0, gradient_tile, gradient_finish, 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

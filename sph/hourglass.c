@@ -63,8 +63,8 @@ static void bond_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_
     (void)role;
     for (uint32_t h = 0; h < homes; h++) {
         own.home = sph_spread_reference(sph_reference_homes_of(sim, t), h);
-        const sph_gather g = {t, sph_near_of(t, &t->bodies), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &own};
-        sph_sum_home(sim, t, &t->bodies, h, SPH_SUM_MASK(SUM_BENT, SUM_OF_BONDS), bond_pair, &g);
+        const sph_gather g = {t, sph_near_of(t, &t->matter), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &own};
+        sph_sum_home(sim, t, &t->matter, h, SPH_SUM_MASK(SUM_BENT, SUM_OF_BONDS), bond_pair, &g);
     }
 }
 static void bond_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -92,7 +92,7 @@ static bool bond_home(const sph_sim *sim, const sph_set *s)
 }
 static void bond_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {bond_home, SPH_BODIES, SPH_SUM_MASK(SUM_BENT, SUM_OF_BONDS), false,
+    const sph_sweep w = {bond_home, SPH_MATTER, SPH_SUM_MASK(SUM_BENT, SUM_OF_BONDS), false,
                          1u << SPH_COLUMN_reference, bond_tile, bond_finish, 0, 1 + SPH_COLUMN_reference};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

@@ -21,7 +21,7 @@ enum {
     POWER_DISSIPATED,
     POWER_WALL,
     POWER_DIFFUSED,
-    POWER_BODY,
+    POWER_BODY_FORCE,
     POWER_IN_WALLS,
     POWER_IN_BONDS,
     POWER_UNBALANCED,
@@ -39,7 +39,7 @@ typedef struct sph_set {
     uint32_t role, kind, group; /* group: SPH_MAX_GROUPS if it moves by forces alone */
     bool compressible, no_slip, corner;
     uint8_t eos;
-    uint8_t kin; /* bodies: the first set of the same material: role, rest density, sound speed, equation of state */
+    uint8_t kin; /* matter: the first set of the same material: role, rest density, sound speed, equation of state */
     double mass, rho0, c0;
     double strength;
     double origin[SPH_DIM];     /* middle of the wall's face at displacement 0, from the domain's low corner (m) */
@@ -167,7 +167,7 @@ struct sph_sim {
     uint32_t sets, groups, unplaced; /* particles that an addition found no room for */
     uint64_t setup_hash;
     bool has_adami, has_force_wall;
-    bool mixed, own_sound; /* bodies are of several materials, or one that is not the configuration's; so is their c0 */
+    bool mixed, own_sound; /* matter is of several materials, or of one that is not the configuration's; so is its c0 */
     bool table_valid;      /* cell[] belongs to buffer cur */
     /* step machine */
     const sph_pass *program[SPH_MAX_PROGRAM];
@@ -303,7 +303,7 @@ SPH_INLINE bool sph_repels(const sph_config *c)
 SPH_INLINE bool sph_smooths_strain(const sph_config *c) { return SPH_HAS_HAT && c->xsph_strain && sph_has_solids(c); }
 
 /* whether a set is made of what moves by forces, not wall */
-#define SPH_BODIES (1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_SOLID)
+#define SPH_MATTER (1u << SPH_ROLE_FLUID | 1u << SPH_ROLE_SOLID)
 SPH_INLINE bool sph_is_solid(const sph_set *s) { return SPH_WITH_SOLID && s->role == SPH_ROLE_SOLID; }
 SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set *s)
 {
@@ -311,7 +311,7 @@ SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set
 }
 /* whether a set of ghosts has a density that goes by continuity */
 SPH_INLINE bool sph_is_compressible(const sph_set *s) { return SPH_WITH_WALL_GHOST && s->compressible; }
-SPH_INLINE bool sph_is_body(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
+SPH_INLINE bool sph_is_matter(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
 
 /* ---- shared by files ---- */
 

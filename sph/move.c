@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* move.c: where the sort takes the particles of a block, and the kick that a stage gives before the sums: bodies by
+/* move.c: where the sort takes the particles of a block, and the kick that a stage gives before the sums: matter by
    their velocity and acceleration, walls and held sets as their group is told; then the faces of the domain. */
 #include "motion.h"
 #include "arithmetic.h"
@@ -26,7 +26,7 @@ sph_move sph_stage_move(const sph_sim *sim)
 
 /* displaces particles that forces move, i..i+n of src; returns false if one moves too far, not finitely, or out of
    the domain */
-SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, sph_block *o, uint32_t at,
+SPH_INLINE bool move_matter(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, sph_block *o, uint32_t at,
                             bool all)
 {
     const sph_buffer *b = &sim->buf[sim->src];
@@ -93,7 +93,7 @@ static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, 
 
 /* along the axes on which a set is held its particles go where the set goes; returns false where one leaves the
    domain */
-static bool hold_bodies(const sph_sim *sim, const sph_set *s, uint32_t i, uint32_t n, sph_block *o, uint32_t at)
+static bool prescribe_motion(const sph_sim *sim, const sph_set *s, uint32_t i, uint32_t n, sph_block *o, uint32_t at)
 {
     const sph_buffer *b = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, s);
@@ -114,7 +114,7 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
                           bool own, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->src];
-    const bool body = sph_is_body(&sim->set[b->set[0][i]]);
+    const bool matter = sph_is_matter(&sim->set[b->set[0][i]]);
     sph_pos q[SPH_DIM];
     sph_real v[SPH_DIM];
     sph_real far = 0; /* the longest way, in cells */
@@ -125,12 +125,12 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
         const sph_real way = u < 0 ? -u : u;
         far = !(way <= far) ? way : far;
     }
-    if (own && !(far < 1) && body)
+    if (own && !(far < 1) && matter)
         sph_fail_note(t, far - far == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE, b->id[0][i], (double)far);
     const uint32_t turned = sph_enforce_faces(sim, q);
     if (turned & SPH_LEFT) {
         o->gone[j] = 2;
-        if (own && (sim->cfg.on_leave == SPH_FAIL || !body))
+        if (own && (sim->cfg.on_leave == SPH_FAIL || !matter))
             sph_note_left(sim, q, b->id[0][i], t);
         t->left += own && !all;
         if (SPH_WITH_BOOKS && own && !all)
@@ -163,10 +163,10 @@ SPH_INLINE_BIG bool move_block(const sph_sim *sim, const sph_move *a, uint32_t i
         memset(o->gone + j, set == SPH_DEAD, e - j);
         if (set == SPH_DEAD)
             fine = false;
-        else if (sph_is_body(&sim->set[set])) {
-            fine &= move_bodies(sim, a, i + j, e - j, o, j, all);
+        else if (sph_is_matter(&sim->set[set])) {
+            fine &= move_matter(sim, a, i + j, e - j, o, j, all);
             if (SPH_HAS_HELD && sph_held(sim, &sim->set[set]))
-                fine &= hold_bodies(sim, &sim->set[set], i + j, e - j, o, j);
+                fine &= prescribe_motion(sim, &sim->set[set], i + j, e - j, o, j);
         } else if (SPH_HAS_WALLS)
             fine &= move_walls(sim, a, &sim->set[set], i + j, e - j, o, j);
         j = e;

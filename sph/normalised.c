@@ -66,7 +66,7 @@ static bool normal_home(const sph_sim *sim, const sph_set *s)
 }
 static void normal_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {normal_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(SUM_S, SUM_OF_NORMALS), true, 0,
+    const sph_sweep w = {normal_home, SPH_MATTER | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(SUM_S, SUM_OF_NORMALS), true, 0,
                          normal_tile, normal_finish, 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

@@ -120,16 +120,16 @@ SPH_INLINE void sph_gather_tile(const sph_sim *sim, sph_thread *t, const sph_til
 }
 SPH_INLINE const sph_tile *sph_tile_of(const sph_thread *t, uint32_t role)
 {
-    return SPH_HAS_LAYERED_WALLS && role == SPH_ROLE_GHOST ? &t->ghosts : &t->bodies;
+    return SPH_HAS_LAYERED_WALLS && role == SPH_ROLE_GHOST ? &t->ghosts : &t->matter;
 }
 /* masks of n sums from row `first` on */
 #define SPH_SUM_MASK(first, n) (((1u << (n)) - 1u) << (first))
 
 /* homes of a gather */
-SPH_INLINE bool sph_body_home(const sph_sim *sim, const sph_set *s)
+SPH_INLINE bool sph_matter_home(const sph_sim *sim, const sph_set *s)
 {
     (void)sim;
-    return sph_is_body(s);
+    return sph_is_matter(s);
 }
 
 #endif

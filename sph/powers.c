@@ -51,7 +51,7 @@ void sph_sum_powers(const sph_sim *sim, sph_span s, double *row)
     const bool damps = sim->cfg.damping < 1 && sim->dt > 0;
     for (uint32_t i = s.first; row && i < s.last; i++) {
         const sph_set *set = &sim->set[b->set[0][i]]; /* of the dead: never read */
-        if (b->set[0][i] == SPH_DEAD || !sph_is_body(set)) /* walls were in no sums */
+        if (b->set[0][i] == SPH_DEAD || !sph_is_matter(set)) /* walls were in no sums */
             continue;
         row[JUMP_HELD] += set->mass * held_gain(sim, set);
         if (damps)

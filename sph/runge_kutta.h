@@ -31,12 +31,12 @@ SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
         sph_turn_fields(sim, i, sim->turned[b->id[0][i]]);
     const uint32_t p = b->id[0][i];
     const sph_set *set = &sim->set[b->set[0][i]];
-    if (sph_is_body(set) || sph_is_compressible(set)) {
+    if (sph_is_matter(set) || sph_is_compressible(set)) {
         const sph_real r = o->rho[0][p], d = b->drho[0][i];
         const sph_real mid = r + half * d;
         b->rho[0][i] = momentum ? r + dt * d : 2 * mid - r;
     }
-    if (!sph_is_body(set)) {
+    if (!sph_is_matter(set)) {
         sph_advance_wall(sim, set, i, t);
         return;
     }

@@ -157,7 +157,7 @@ sph_status sph_setup_end_adding(sph_sim *sim, uint32_t before, sph_status st)
 
 sph_status sph_setup_check_body(sph_sim *sim, uint32_t set)
 {
-    if (set >= sim->sets || !sph_is_body(&sim->set[set]))
+    if (set >= sim->sets || !sph_is_matter(&sim->set[set]))
         return sph_setup_bad(sim, "set", "a number given by sph_add_fluid or sph_add_solid", set);
     return SPH_OK;
 }

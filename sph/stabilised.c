@@ -77,7 +77,7 @@ SPH_INLINE void edge_pair(const void *what, uint32_t j, vreal *s)
 static void edge_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
     (void)role;
-    sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(SUM_EDGE, 1 + SPH_DIM), edge_pair, NULL);
+    sph_gather_tile(sim, t, &t->matter, homes, SPH_SUM_MASK(SUM_EDGE, 1 + SPH_DIM), edge_pair, NULL);
 }
 static void edge_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
@@ -96,7 +96,7 @@ static bool stabilised_home(const sph_sim *sim, const sph_set *s)
 }
 static void edge_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {stabilised_home, SPH_BODIES,  SPH_SUM_MASK(SUM_EDGE, 1 + SPH_DIM), true, 0,
+    const sph_sweep w = {stabilised_home, SPH_MATTER,  SPH_SUM_MASK(SUM_EDGE, 1 + SPH_DIM), true, 0,
                          edge_tile,       edge_finish, 0,                                   0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
@@ -158,11 +158,11 @@ SPH_INLINE void average(uint32_t kernel, const sph_sim *sim, sph_thread *t, uint
         a.stress = sph_stress_tile_of(sim, t);
     for (uint32_t h = 0; h < homes; h++) {
         a.level = v_set(sph_edge_homes_of(sim, t)->level[h]);
-        const sph_gather g = {t, sph_near_of(t, &t->bodies), h, kernel, v_set(sim->fac.inv_h), &a};
+        const sph_gather g = {t, sph_near_of(t, &t->matter), h, kernel, v_set(sim->fac.inv_h), &a};
         if (means)
-            sph_sum_home(sim, t, &t->bodies, h, MEANS, mean_pair, &g);
+            sph_sum_home(sim, t, &t->matter, h, MEANS, mean_pair, &g);
         else
-            sph_sum_home(sim, t, &t->bodies, h, ROWS, rows_pair, &g);
+            sph_sum_home(sim, t, &t->matter, h, ROWS, rows_pair, &g);
     }
 }
 static void rows_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
@@ -203,13 +203,13 @@ static void mean_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 }
 static void rows_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {stabilised_home, SPH_BODIES,  ROWS, true, 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_stress,
+    const sph_sweep w = {stabilised_home, SPH_MATTER,  ROWS, true, 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_stress,
                          rows_tile,       rows_finish, 0,    0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static void mean_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {stabilised_home, SPH_BODIES,  MEANS, true, 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_drawn,
+    const sph_sweep w = {stabilised_home, SPH_MATTER,  MEANS, true, 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_drawn,
                          mean_tile,       mean_finish, 0,     0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

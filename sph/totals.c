@@ -48,7 +48,7 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
     out->dissipated = sim->now.work[POWER_DISSIPATED];
     out->wall_work = sim->now.work[POWER_WALL];
     out->diffused = sim->now.work[POWER_DIFFUSED];
-    out->body_work = sim->now.work[POWER_BODY];
+    out->body_work = sim->now.work[POWER_BODY_FORCE];
     out->in_walls = sim->now.work[POWER_IN_WALLS];
     out->in_bonds = sim->now.work[POWER_IN_BONDS];
     out->unbalanced = sim->now.work[POWER_UNBALANCED];

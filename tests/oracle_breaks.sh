@@ -64,8 +64,8 @@ break_it contact_energy 'balance of powers' sph/reference.h \
     's/s\[SUM_IN_BONDS\] + p->force/s[SUM_IN_BONDS] + 0 * p->force/'
 break_it image_of_wall acceleration sph/boundary.c \
     's/return turned >> k & 1 ? -v : v;/return turned >> k \& 1 ? v : v;/'
-break_it other_material 'density rate' sph/forces.c 's/i->kin == j->kin ? /true ? /'
-break_it hydrostatic_image 'density rate' sph/forces.c 's/(sph_real)(turned ? -slope : slope)/(sph_real)slope/'
+break_it other_material 'density rate' sph/factors.c 's/i->kin == j->kin ? /true ? /'
+break_it hydrostatic_image 'density rate' sph/factors.c 's/(sph_real)(turned ? -slope : slope)/(sph_real)slope/'
 break_it diffusion_limit 'diffusion limit' sph/factors.c 's/0.875 \* stands/1.75 * stands/'
 break_it square_root_of_7 'courant limit' sph/timestep.c 's/TAIT_GRAY) ? 7 : 1/TAIT_GRAY) ? 1 : 1/'
 break_it thin_neighbour 'density rate' sph/tiles.c 's/LEAST_DENSITY ((sph_real)0.5)/LEAST_DENSITY ((sph_real)0.4)/'

@@ -256,7 +256,7 @@ uint32_t look_results(const sph_sim *sim, seen *to, uint32_t room)
             o->dev[k] = (double)b->stress[k][i];
             o->dev_rate[k] = (double)b->dstress[k][i];
         }
-        for (uint32_t k = 0; k <= SPH_DIM && sim->disorder[0] && sph_is_body(&sim->set[b->set[0][i]]); k++)
+        for (uint32_t k = 0; k <= SPH_DIM && sim->disorder[0] && sph_is_matter(&sim->set[b->set[0][i]]); k++)
             o->disorder[k] = (double)sim->disorder[k][i];
         for (uint32_t k = 0; k < SPH_POWERS && sim->power[0]; k++)
             o->power[k] = (double)sim->power[k][i];
