@@ -389,6 +389,10 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
     X(f_s_w2_t, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .total = 1,                    \
       .part = SPH_PART_FORCES)
 
+#define SPH_FAST_STABILISED(X)                                                                                     \
+    X(f_s_cubic_b, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1, .form = SPH_STABILISED,           \
+      .part = SPH_PART_FORCES)
+
 #define SPH_FAST_FN(name, ...)                                                                                     \
     SPH_APART void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)                           \
     {                                                                                                              \
@@ -430,6 +434,9 @@ SPH_FAST_CORRECTED_PARTS(SPH_FAST_FN)
 #if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_WITH_SOLID
 SPH_FAST_SOLID_PARTS(SPH_FAST_FN)
 #endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_HAS_STABILISED
+SPH_FAST_STABILISED(SPH_FAST_FN)
+#endif
 static const struct {
     sph_choice c;
     fast_path *run;
@@ -463,6 +470,9 @@ static const struct {
 #endif
 #if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST && SPH_WITH_BONET_LOK
     SPH_FAST_SHEAR_CORRECTED(SPH_FAST_ROW)
+#endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_HAS_STABILISED
+    SPH_FAST_STABILISED(SPH_FAST_ROW)
 #endif
     {{0}, NULL}};
 

@@ -20,33 +20,36 @@ _Static_assert(SUM_OF_MEANS <= SPH_SUMS, "SPH_SUMS is too small");
 
 /* ---- columns ---- */
 
-static sph_real level_of(const sph_factors *f, sph_real filled)
+SPH_INLINE vreal levels_of(const sph_factors *f, vreal filled)
 {
-    sph_real level = 0;
+    vreal level = v_set(0);
+    SPH_UNROLL
     for (uint32_t k = 0; k < SPH_LEVELS; k++)
-        level += filled > f->edge[k] ? 1 : 0;
+        level = level + v_where(v_less(v_set(f->edge[k]), filled), v_set(1));
     return level;
 }
 
 void sph_load_edge(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const bool solid = sph_is_solid(r->set);
-    for (uint32_t j = 0; j < r->n; j++) {
-        const sph_real filled = solid ? r->b->filled[0][r->first + j] : 1, u = 1 / filled;
-        to[j] = u;
+    for (uint32_t j = 0; j < r->n; j += SPH_W) {
+        const vreal filled = solid ? v_load(r->b->filled[0] + r->first + j) : v_set(1), u = 1 / filled;
+        v_store(to + j, u);
         for (uint32_t k = 0; k < SPH_DIM; k++) {
-            const sph_real d = solid ? r->b->slant[k][r->first + j] * (u * u) : 0;
-            to[(1 + k) * row + j] = d * (sph_real)r->im->sign[k];
+            const vreal d = solid ? v_load(r->b->slant[k] + r->first + j) : v_set(0);
+            v_store(to + (1 + k) * row + j, d * (u * u) * (sph_real)r->im->sign[k]);
         }
-        to[(1 + SPH_DIM) * row + j] = solid ? level_of(&r->sim->fac, filled) : SPH_LEVELS;
+        v_store(to + (1 + SPH_DIM) * row + j, solid ? levels_of(&r->sim->fac, filled) : v_set(SPH_LEVELS));
     }
 }
 void sph_load_drawn(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const bool solid = sph_is_solid(r->set);
     for (uint32_t k = 0; k < SPH_DIM; k++)
-        for (uint32_t j = 0; j < r->n; j++)
-            to[k * row + j] = solid ? r->sim->drawn[k][r->first + j] * (sph_real)r->im->sign[k] : 0;
+        for (uint32_t j = 0; j < r->n; j += SPH_W) {
+            const vreal drawn = solid ? v_load(r->sim->drawn[k] + r->first + j) : v_set(0);
+            v_store(to + k * row + j, drawn * (sph_real)r->im->sign[k]);
+        }
 }
 void sph_load_means(const sph_candidates *r, sph_real *to, uint32_t row)
 {
@@ -175,8 +178,8 @@ static void rows_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_
 }
 static void mean_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    (void)role;
-    average(sim->cfg.kernel, sim, t, homes, true);
+    (void)role; /* asks for no kernel */
+    average(SPH_CUBIC, sim, t, homes, true);
 }
 
 static void rows_finish(sph_sim *sim, sph_thread *t, uint32_t h)
