@@ -77,9 +77,9 @@ static sph_status check_solids(const sph_config *c, sph_report *r)
     if (!SPH_WITH_SOLID) /* whatever they ask for was refused as left out */
         return SPH_OK;
     if (!solid && (c->yield || c->damage || c->artificial_stress || c->xsph_strain ||
-                   c->face_quadrature))
-        return sph_refuse(r, "solid", "a solid form, where yield, damage, artificial_stress, xsph_strain or "
-                                    "face_quadrature is on", c->solid);
+                   c->face_quadrature || c->hourglass > 0))
+        return sph_refuse(r, "solid", "a solid form, where yield, damage, artificial_stress, xsph_strain, "
+                                    "face_quadrature or hourglass is on", c->solid);
     if (!solid)
         return SPH_OK;
     if (c->scheme != SPH_STANDARD && c->scheme != SPH_WEAK)
@@ -88,6 +88,10 @@ static sph_status check_solids(const sph_config *c, sph_report *r)
         return sph_refuse(r, "density", "SPH_CONTINUITY, without the Shepard filter, with solids", c->density);
     if (sph_is_total(c) && c->artificial_stress)
         return sph_refuse(r, "artificial_stress", "none with SPH_TOTAL", c->artificial_stress);
+    if ((sph_stabilises(c) || sph_normalises(c)) && c->artificial_stress)
+        return sph_refuse(r, "artificial_stress", "none with SPH_STABILISED, SPH_NORMALISED ...", c->artificial_stress);
+    if (c->hourglass > 0 && !sph_is_total(c))
+        return sph_refuse(r, "hourglass", "0 .. 100, and 0 but with SPH_TOTAL", c->hourglass);
     if (c->xsph_strain && !(c->xsph > 0))
         return sph_refuse(r, "xsph", "> 0 where xsph_strain is on", c->xsph);
     if (sph_weighs_faces(c) && !sph_corrects(c))

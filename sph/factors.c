@@ -47,7 +47,7 @@ static double solids_stand(const sph_config *c)
         d += c->alpha / 8;
     const double x = d / PC_DISSIPATION;
     const double stands = x < 1e-3 ? 0 : x > 1e6 ? PC_COURANT * 100 : PC_COURANT * cube_root(x);
-    const double own = stands * (sph_corrects(c) ? PC_CORRECTED : PC_UPDATED);
+    const double own = stands * (sph_corrects(c) || sph_normalises(c) ? PC_CORRECTED : PC_UPDATED);
     const double most = own < PC_COURANT_LEAST ? PC_COURANT_LEAST : own;
     return c->integrator >= SPH_RUNGE_KUTTA ? RK_COURANT * most : most;
 }
@@ -84,7 +84,8 @@ double sph_courant_factor(const sph_config *c)
 static bool loses_energy(const sph_config *c)
 {
     bool loses = SPH_IS(c->scheme, DIRECT) || SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK) ||
-        sph_smooths_strain(c) || (sph_sums_density(c) && sph_weak_scheme(c->scheme));
+        sph_smooths_strain(c) || sph_stabilises(c) || sph_normalises(c) ||
+        (sph_sums_density(c) && sph_weak_scheme(c->scheme));
     for (uint32_t k = 0; k < SPH_DIM; k++) /* images that move along the face */
         loses |= SPH_IS(c->face[k][0], MIRROR_NO_SLIP) || SPH_IS(c->face[k][1], MIRROR_NO_SLIP);
     return loses;
@@ -145,6 +146,36 @@ static void make_weights(const sph_config *c, double slope, sph_factors *f)
     f->weigh = full < 0 ? (sph_real)(deeper / moment) : 0;
 }
 
+/* Between rows r and r + 1 below a flat face of a lattice, S (stabilised.h) lies below f->edge[r]; as far as it is
+   told from the inside's: below 0.98 of it */
+static void make_levels(const sph_config *c, sph_factors *f)
+{
+    const double dx = c->spacing, reach = sph_kernel_support(c->kernel) * c->smoothing_length / dx;
+    const int32_t most = (int32_t)reach + 1, second = SPH_DIM > 1 ? most : 0, third = SPH_DIM == 3 ? most : 0;
+    double layer[32], full = 0, volume = dx;
+    for (int32_t k = 1; k < SPH_DIM; k++)
+        volume *= dx;
+    for (int32_t m = 0; m <= most; m++) {
+        layer[m] = 0;
+        for (int32_t a = -second; a <= second; a++)
+            for (int32_t b = -third; b <= third; b++) {
+                double w, slope;
+                const double r = __builtin_sqrt(m * m + a * a + b * b) * dx;
+                sph_kernel_value(c->kernel, r, c->smoothing_length, &w, &slope);
+                layer[m] += w * volume;
+            }
+        full += m ? 2 * layer[m] : layer[m];
+    }
+    for (int32_t r = 0; r < SPH_LEVELS; r++) {
+        double lost = 0, next = 0;
+        for (int32_t m = r + 1; m <= most; m++) {
+            lost += layer[m];
+            next += m > r + 1 ? layer[m] : 0;
+        }
+        f->edge[r] = lost > 0.02 * full ? (sph_real)(full - 0.5 * (lost + next)) : 0;
+    }
+}
+
 /* constants of the pair formulas; made at init and when the configuration changes */
 void sph_make_factors(sph_sim *sim)
 {
@@ -168,6 +199,10 @@ void sph_make_factors(sph_sim *sim)
         const double density = sph_weak_scheme(c->scheme) ? c->rho0 : 1 / c->rho0;
         f->contact = (sph_real)(2 * c->sound_speed * c->sound_speed * density);
     }
+    if (sph_stabilises(c) || sph_normalises(c))
+        f->value_slope = (sph_real)(value / slope);
+    if (sph_stabilises(c))
+        make_levels(c, f);
     if (sph_weighs_faces(c))
         make_weights(c, slope, f);
     /* the formulas use mu' = mu/(rho_i + rho_j): 1/rho_mean = 2/(rho_i + rho_j), and |mu| = (rho_i + rho_j) |mu'| */

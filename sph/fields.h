@@ -51,6 +51,8 @@ typedef sph_int sph_pos;
     X(quadrature, sph_real, 1, "1", sph_weighs_faces(c), SPH_CARRIED | SPH_NOT_NEGATIVE) /* phi; 0: 1 */       \
     X(energy, sph_real, 1, "J/kg", sph_has_energy(c), SPH_EVOLVES(denergy) | SPH_NOT_NEGATIVE)                    \
     X(denergy, sph_real, 1, "W/kg", sph_has_energy(c), SPH_RATE)                                                  \
+    X(filled, sph_real, 1, "1", sph_stabilises(c), SPH_CARRIED | SPH_NOT_NEGATIVE) /* S */ \
+    X(slant, sph_real, SPH_DIM, "1/m", sph_stabilises(c), SPH_CARRIED | SPH_VECTOR) /* D */               \
     X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: an index into src */              \
     X(set, uint8_t, 1, "1", true, SPH_PLACED)                                                                     \
     SPH_EXTRA_FIELDS(X)

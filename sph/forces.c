@@ -7,6 +7,7 @@
      gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
      shear.h        viscous stress              xsph.h         drift beside the velocity   pair_power.h   the books
      shift_sums.h   disorder                    energy.h       heat, sound of each particle
+     stabilised.h, normalised.h, hourglass.h    forms of solids
 
    Kick-drift-kick and leap-frog sum rates and forces in sweeps of their own (choice `part`): with the same bits as both
    at once, of which each would use a half.
@@ -21,11 +22,14 @@
 #include "factors.h"
 #include "finish.h"
 #include "gradient.h"
+#include "hourglass.h"
+#include "normalised.h"
 #include "pair_power.h"
 #include "pressure.h"
 #include "reference.h"
 #include "shear.h"
 #include "shift_sums.h"
+#include "stabilised.h"
 #include "stress.h"
 #include "viscosity.h"
 #include "xsph.h"
@@ -50,6 +54,11 @@ typedef struct at_home {
     const sph_energy_home *energy;
     const sph_stress_home *solid;
     const sph_reference_home *was;
+    const sph_stabilised_home *means;
+    sph_stabilised_near stabilised;
+    const sph_normalised_home *normal;
+    const sph_deform_home *deform;
+    const sph_deform_tile *deformed;
 } at_home;
 
 /* x_ij, K and |K|; returns false where a scalar machine may skip the pair: all terms are 0 there */
@@ -100,6 +109,15 @@ SPH_INLINE void momentum(const sph_choice *c, const sph_near *p, vreal *s)
     }
 }
 
+/* what a pair of bodies has beside in the stabilised form */
+SPH_INLINE void stabilise(const at_home *o, sph_near *p, vreal *s)
+{
+    if (!sph_stabilised(o->c) || p->wall || !sph_takes_forces(o->c))
+        return;
+    const vreal w = sph_weak_scheme(o->c->scheme) ? p->inv_rho * o->home->inv_rho : v_set(1);
+    sph_stabilised_push(o->c, o->f, o->solid, o->stress, o->means, &o->stabilised, p, w, s);
+}
+
 /* one group of lanes: everything that candidates j ... give to the home; wall: they are ghosts */
 SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
 {
@@ -120,11 +138,15 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     kernel(o, &p);
     if (sph_takes_rates(c))
         sph_continuity(c, o->f, o->home, &p, s);
+    if (sph_normalised(c))
+        sph_normalised_vector(c, o->f, o->normal, &p);
     sph_stress_force(c, o->f, o->home, o->solid, o->stress, o->smoothed, &p, s);
+    stabilise(o, &p, s);
     if (sph_takes_forces(c)) {
         sph_pressure_force(c, o->f, o->home, &p);
         sph_corrected_pressure(c, o->home, o->gradient, o->corrected, &p, s);
         sph_contact(c, o->f, o->home, &p, s);
+        sph_hourglass(c, o->home, o->was, o->reference, o->deform, o->deformed, &p, s);
     }
     sph_inverse_distance(c, o->f, o->home, &p);
     sph_viscosity(c, o->f, o->home, o->mirror, sph_pair_sound(c, o->energy, o->sounds, &p), &p, s);
@@ -161,6 +183,30 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
                             (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS) : 0) |
                             (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0);
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
+}
+
+/* what a form of solids wants to know of a home */
+typedef struct form_home {
+    sph_stabilised_home means;
+    sph_normalised_home normal;
+    sph_deform_home deform;
+} form_home;
+SPH_INLINE void spread_form(at_home *o, form_home *form, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    if (sph_stabilised(o->c) && sph_takes_forces(o->c)) {
+        o->stabilised = sph_stabilised_of(sim, t);
+        form->means = sph_spread_stabilised(sim, t, h);
+        o->means = &form->means;
+    }
+    if (sph_normalised(o->c)) {
+        form->normal = sph_spread_normalised(sim, t, h);
+        o->normal = &form->normal;
+    }
+    if (SPH_HAS_HOURGLASS && o->c->hourglass) {
+        o->deformed = (const void *)sph_near_columns_of(sim, t, SPH_COLUMN_deform);
+        form->deform = sph_spread_deform(sim, t, h);
+        o->deform = &form->deform;
+    }
 }
 
 SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h,
@@ -204,6 +250,8 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         was = sph_spread_reference(sph_reference_homes_of(sim, t), h);
         o.was = &was;
     }
+    form_home form;
+    spread_form(&o, &form, sim, t, h);
     const uint32_t sums = sums_of(c, wall);
     if (SPH_SMALL)
         sph_sum_home(sim, t, tile, h, sums, pair_either, &o);
@@ -238,7 +286,7 @@ SPH_APART void force_losing(const sph_choice *c, const sph_factors *f, const sph
 SPH_APART void force_fluid(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = own.repulsion = 0;
+    own.solid = own.total = own.hat = own.repulsion = own.form = own.hourglass = 0;
     own.loses = SPH_SMALL && own.loses;
     own.gradient = SPH_SMALL ? own.gradient : 0;
     own.energy = SPH_SMALL && own.energy;
@@ -248,14 +296,14 @@ SPH_APART void force_fluid(const sph_choice *c, const sph_factors *f, const sph_
 SPH_APART void force_energy(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = own.repulsion = own.loses = 0;
+    own.solid = own.total = own.hat = own.repulsion = own.loses = own.form = own.hourglass = 0;
     own.energy = 1;
     force_general(&own, f, sim, t, h);
 }
 SPH_APART void force_corrected(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = own.repulsion = own.loses = own.energy = 0;
+    own.solid = own.total = own.hat = own.repulsion = own.loses = own.energy = own.form = own.hourglass = 0;
     force_general(&own, f, sim, t, h);
 }
 SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
@@ -361,6 +409,10 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
     X(f_s_w2_t, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .solid = 1, .total = 1,                    \
       .part = SPH_PART_FORCES)
 
+#define SPH_FAST_STABILISED(X)                                                                                     \
+    X(f_s_cubic_b, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .solid = 1, .form = SPH_STABILISED,           \
+      .part = SPH_PART_FORCES)
+
 #define SPH_FAST_FN(name, ...)                                                                                     \
     SPH_APART void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)                           \
     {                                                                                                              \
@@ -402,6 +454,9 @@ SPH_FAST_CORRECTED_PARTS(SPH_FAST_FN)
 #if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_WITH_SOLID
 SPH_FAST_SOLID_PARTS(SPH_FAST_FN)
 #endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_HAS_STABILISED
+SPH_FAST_STABILISED(SPH_FAST_FN)
+#endif
 static const struct {
     sph_choice c;
     fast_path *run;
@@ -436,6 +491,9 @@ static const struct {
 #if SPH_WITH_FAST_PATHS && SPH_WITH_SHEAR && SPH_HAS_RATES_FIRST && SPH_WITH_BONET_LOK
     SPH_FAST_SHEAR_CORRECTED(SPH_FAST_ROW)
 #endif
+#if SPH_WITH_FAST_PATHS && SPH_HAS_RATES_FIRST && SPH_HAS_STABILISED
+    SPH_FAST_STABILISED(SPH_FAST_ROW)
+#endif
     {{0}, NULL}};
 
 #undef SPH_FAST_FN
@@ -456,6 +514,11 @@ static fast_path *fast_path_of(const sph_choice *c)
     while (fast_paths[k].run && !same_choice(&fast_paths[k].c, c))
         k++;
     return fast_paths[k].run;
+}
+
+static uint32_t form_of(const sph_config *c, bool forces)
+{
+    return sph_normalises(c) ? SPH_NORMALISED : forces && sph_stabilises(c) ? SPH_STABILISED : 0;
 }
 
 /* The choices of a scene, of matter or of ghosts. Rates ask for no viscosity and keep no books; forces for nothing that
@@ -483,6 +546,8 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .loses = books && sim->fac.loses,
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0),
                         .part = (uint8_t)part,
+                        .form = (uint8_t)form_of(c, forces),
+                        .hourglass = forces && sph_resists_hourglass(c),
                          .shifting = forces && sph_shifts(c),
                          .shear = viscous && sph_shears(c),
                          .energy = sph_has_energy(c)};
@@ -538,6 +603,8 @@ static uint32_t columns_of(const sph_choice *c)
     const bool forces = sph_takes_forces(c), gradient = c->gradient && (forces || !SPH_IS(c->gradient, BONET_LOK));
     return (SPH_HAS_LAYERED_WALLS && (sph_viscous(c->viscosity) || c->shear) ? 1u << SPH_COLUMN_mirror : 0) |
            (c->shear ? 1u << SPH_COLUMN_shear : 0) | (SPH_WITH_ENERGY && c->energy ? 1u << SPH_COLUMN_energy : 0) |
+           (c->hourglass ? 1u << SPH_COLUMN_deform : 0) |
+           (sph_stabilised(c) ? 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_drawn | 1u << SPH_COLUMN_means : 0) |
            (c->solid && forces ? 1u << SPH_COLUMN_stress : 0) | (c->total ? 1u << SPH_COLUMN_reference : 0) |
            (c->hat ? 1u << SPH_COLUMN_smoothed : 0) | (gradient ? 1u << SPH_COLUMN_gradient : 0);
 }

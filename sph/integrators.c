@@ -259,6 +259,8 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 #define FORCES                                                                                                     \
     MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami), MODULE(SPH_WITH_WALL_ADAMI, sph_pass_adami_copy),                 \
         MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),        \
+        MODULE(SPH_HAS_STABILISED, sph_pass_rows), MODULE(SPH_HAS_STABILISED, sph_pass_means),                     \
+        MODULE(SPH_HAS_NORMALISED, sph_pass_normal), MODULE(SPH_HAS_HOURGLASS, sph_pass_bonds),                    \
         MODULE(SPH_WITH_SHEAR, sph_pass_shear), MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
 
 /* A density that is summed is of where particles are: Runge-Kutta, which moves them last, sums it once more. */
@@ -274,7 +276,9 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
         MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
 
 typedef const sph_pass *const list[];
-#define WEIGHTS MODULE(SPH_HAS_QUADRATURE, sph_pass_cover), MODULE(SPH_HAS_QUADRATURE, sph_pass_quadrature)
+#define WEIGHTS                                                                                                    \
+    MODULE(SPH_HAS_QUADRATURE, sph_pass_cover), MODULE(SPH_HAS_QUADRATURE, sph_pass_quadrature),                   \
+        MODULE(SPH_HAS_STABILISED, sph_pass_edge)
 static list first_forces = {&pass_begin, SORT, WEIGHTS, QUIET, DENSITIES, FORCES, &pass_prime};
 static list predictor_corrector = {BEGIN, SORT, QUIET, DENSITIES, FORCES, END(pass_correct)};
 static list kick_drift_kick = {BEGIN, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_kick)};

@@ -89,8 +89,11 @@ typedef struct sph_peaks {
 } sph_peaks;
 
 /* constants of the pair formulas (factors.c) */
+#define SPH_LEVELS 3 /* stabilised.h: layers below a face that are told apart */
 typedef struct sph_factors {
     sph_real inv_h, eta, eta_morris, reach, reach2, slope, value;
+    sph_real value_slope;        /* forms of solids: the scale of W over that of its slope */
+    sph_real edge[SPH_LEVELS];   /* stabilised: what S has between rows below a face */
     sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real least_rho;          /* diffusion: of a neighbour, rho0/2 (tiles.c) */
@@ -147,7 +150,7 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-#define SPH_MAX_PROGRAM 72u
+#define SPH_MAX_PROGRAM 96u
 
 struct sph_sim {
     sph_config cfg;
@@ -243,7 +246,8 @@ _Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 &
 
 #define SPH_SOLIDS_IN                                                                                       \
     (1 << SPH_NO_SOLID | SPH_WITH_SOLID << SPH_UPDATED | (SPH_WITH_SOLID && SPH_WITH_CORRECTED) << SPH_CORRECTED |   \
-     SPH_HAS_TOTAL << SPH_TOTAL)
+     SPH_HAS_TOTAL << SPH_TOTAL | SPH_HAS_STABILISED << SPH_STABILISED | SPH_HAS_NORMALISED << SPH_NORMALISED |      \
+     SPH_HAS_NORMALISED << SPH_NORMALISED_CORRECTED)
 #define SPH_YIELDS_IN (1 << SPH_NO_YIELD | SPH_HAS_YIELD << SPH_VON_MISES | SPH_HAS_YIELD << SPH_VON_MISES_GRAY)
 #define SPH_DAMAGES_IN                                                                                      \
     (1 << SPH_NO_DAMAGE | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG | SPH_HAS_DAMAGE << SPH_BENZ_ASPHAUG_GRAY)
@@ -299,7 +303,13 @@ SPH_INLINE bool sph_foresees(const sph_config *c)
     return (only || SPH_IS(c->integrator, PREDICTOR_CORRECTOR)) && !sph_has_solids(c);
 }
 SPH_INLINE bool sph_is_total(const sph_config *c) { return SPH_HAS_TOTAL && c->solid == SPH_TOTAL; }
-SPH_INLINE bool sph_corrects(const sph_config *c) { return SPH_HAS_CORRECTION && c->solid >= SPH_CORRECTED; }
+SPH_INLINE bool sph_corrects(const sph_config *c)
+{
+    return SPH_HAS_CORRECTION && (c->solid == SPH_CORRECTED || c->solid == SPH_TOTAL);
+}
+SPH_INLINE bool sph_stabilises(const sph_config *c) { return SPH_HAS_STABILISED && c->solid == SPH_STABILISED; }
+SPH_INLINE bool sph_normalises(const sph_config *c) { return SPH_HAS_NORMALISED && c->solid >= SPH_NORMALISED; }
+SPH_INLINE bool sph_resists_hourglass(const sph_config *c) { return SPH_HAS_HOURGLASS && c->hourglass > 0; }
 SPH_INLINE bool sph_weighs_faces(const sph_config *c) { return SPH_HAS_QUADRATURE && c->face_quadrature; }
 SPH_INLINE bool sph_shears(const sph_config *c) { return SPH_WITH_SHEAR && c->shear != SPH_NO_SHEAR; }
 SPH_INLINE bool sph_has_energy(const sph_config *c) { return SPH_WITH_ENERGY && c->energy; }

@@ -64,6 +64,9 @@
     X(DAMAGE, SPH_WITH_SOLID && SPH_DIM > 1) /* flaws and damage */                                        \
     X(ARTIFICIAL_STRESS, SPH_WITH_SOLID)                                                                   \
     X(QUADRATURE, SPH_WITH_SOLID && (SPH_WITH_CORRECTED || SPH_WITH_TOTAL_LAGRANGIAN) && SPH_DIM > 1) \
+    X(STABILISED, SPH_WITH_SOLID) /* stabilised form */                                                    \
+    X(NORMALISED, SPH_WITH_SOLID) /* forms with normalised kernels */                                      \
+    X(HOURGLASS, SPH_WITH_SOLID && SPH_WITH_TOTAL_LAGRANGIAN) /* control of hourglass modes */             \
     X(XSPH_STRAIN, SPH_WITH_SOLID && SPH_WITH_XSPH) /* strain rates from smoothed velocities */            \
     X(HELD, SPH_WITH_SOLID) /* sets that are held or pulled */                                             \
     X(SPONGE, 1) /* layers that take in waves */                                                           \
@@ -122,6 +125,9 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_HAS_DAMAGE (SPH_WITH_SOLID && SPH_WITH_DAMAGE && SPH_DIM > 1)
 #define SPH_HAS_REPULSION (SPH_WITH_SOLID && SPH_WITH_ARTIFICIAL_STRESS)
 #define SPH_HAS_QUADRATURE (SPH_HAS_CORRECTION && SPH_WITH_QUADRATURE && SPH_DIM > 1)
+#define SPH_HAS_STABILISED (SPH_WITH_SOLID && SPH_WITH_STABILISED)
+#define SPH_HAS_NORMALISED (SPH_WITH_SOLID && SPH_WITH_NORMALISED)
+#define SPH_HAS_HOURGLASS (SPH_HAS_TOTAL && SPH_WITH_HOURGLASS)
 #define SPH_HAS_HAT (SPH_WITH_SOLID && SPH_WITH_XSPH && SPH_WITH_XSPH_STRAIN)
 
 /* true if `choice` is SPH_<name> and that was compiled in: how the kernel asks for a choice everywhere */

@@ -135,8 +135,8 @@
       "keep work and dissipation: no yes", "books", "-", 0, 1, OWN)                                                   \
                                                                                                                       \
     /* solids; fluids may be beside them, and take part in the same sums */                                           \
-    O(A, solid, CHOICE, SPH_NO_SOLID, 0, SPH_SOLIDS, SPH_SOLIDS_IN, "one of SPH_NO_SOLID .. SPH_TOTAL", FIXED, "-",   \
-      "solid form: none updated corrected total")                                                                     \
+    O(A, solid, CHOICE, SPH_NO_SOLID, 0, SPH_SOLIDS, SPH_SOLIDS_IN, "one of SPH_NO_SOLID .. SPH_NORMALISED_CORRECTED", \
+      FIXED, "-", "solid form: none updated corrected total stabilised normalised normalised_corrected") \
     O(A, yield, CHOICE, SPH_NO_YIELD, 0, SPH_YIELDS, SPH_YIELDS_IN, "one of SPH_NO_YIELD .. SPH_VON_MISES_GRAY",      \
       FIXED, "-", "yield: none von_mises von_mises_gray")                                                             \
     O(A, damage, CHOICE, SPH_NO_DAMAGE, 0, SPH_DIM == 1 ? 1 : SPH_DAMAGES, SPH_DAMAGES_IN,                            \
@@ -154,6 +154,8 @@
       "strain rates from the smoothed velocity (Gray 2001 eq 5.10; needs xsph; costs a sweep)")                       \
     O(A, face_quadrature, BOOL, false, 0, 1, SPH_HAS_QUADRATURE, "false or true", FIXED, "-",                         \
       "quadrature weights beside the faces of sets with flat_faces (SPH_CORRECTED, SPH_TOTAL)")                        \
+    O(A, hourglass, REAL, 0, 0, 100, SPH_HAS_HOURGLASS, "0 .. 100, and 0 but with SPH_TOTAL", FIXED, "-",             \
+      "SPH_TOTAL: strength of the control of hourglass modes; 0: none")                                               \
     O(A, max_stretch, REAL, 1.25, 1, 8, true, "1 .. 8", FIXED, "-",                                                   \
       "SPH_TOTAL: how far a bond may be drawn, in supports; cells grow with it")                                      \
     SPH_SHIFTING_OPTIONS(O, P, A)                                                                                     \

@@ -27,6 +27,13 @@
 #define sph_pass_smooth SPH_NAME(pass_smooth_)
 #define sph_pass_gradient SPH_NAME(pass_gradient_)
 #define sph_pass_shear SPH_NAME(pass_shear_)
+/* stabilised.c, normalised.c, hourglass.c */
+#define sph_pass_edge SPH_NAME(pass_edge_)
+#define sph_pass_rows SPH_NAME(pass_rows_)
+#define sph_pass_means SPH_NAME(pass_means_)
+#define sph_pass_normal SPH_NAME(pass_normal_)
+#define sph_pass_bonds SPH_NAME(pass_bonds_)
+extern const sph_pass sph_pass_edge, sph_pass_rows, sph_pass_means, sph_pass_normal, sph_pass_bonds;
 extern const sph_pass sph_pass_count, sph_pass_scatter, sph_pass_force, sph_pass_summation, sph_pass_shepard,
     sph_pass_copy_density, sph_pass_adami, sph_pass_adami_copy, sph_pass_correction, sph_pass_smooth, sph_pass_gradient,
     sph_pass_cover, sph_pass_quadrature, sph_pass_shear, sph_pass_mls;

@@ -155,11 +155,30 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_IDEAL_GAS, SPH_E
               x_ij, nearer than dx, as by a pressure rho0 c0^2 (W/W(dx) - 1) of the configuration in both: no
               adhesion, no friction but that of uneven surfaces (and viscosity where that is asked for). Other pairs
               (rubble, fluid) take K = x_ij.
+   With hourglass > 0 (TOTAL) what of its bonds a particle's deformation gradient F does not explain stores energy,
+              (m_i/2) k sum m_j (-g) |x_ij - F_i K|^2, k = hourglass E/rho0^2 with Young's modulus E, and pushes back
+              (after Ganzenmueller 2015; hourglass.h). Costs a sweep and SPH_DIM^2 + 1 reals a particle.
+   STABILISED UPDATED with, along axes in tension, a kernel whose sums over neighbours vanish (Powell 2012 section 4.2;
+              stabilised.h): no tensile instability, and bodies may flow and come apart. Momentum is kept, energy is
+              not. Wants xsph. Costs two sweeps and 5 SPH_DIM + 2 reals a particle.
+   NORMALISED UPDATED with the gradient of the kernel over its sum, exact for constants (Powell 2012 eq 1.14), and
+   NORMALISED_CORRECTED  of that, corrected to be exact for linear fields (his 1.19), in the velocity gradient and in
+              each particle's own force. Keep neither momentum nor energy, and fail in tension: for comparison. Cost a
+              sweep and SPH_DIM^2 + SPH_DIM reals.
    With face_quadrature (CORRECTED, TOTAL; 2-D, 3-D) sets with flat_faces count the energy of the particles beside their
    free faces, and so T, with weights phi that make bending of second order: 1 + c in the outermost row, 1 - c in the
    next, c = 0.07 where the kernel reaches neighbours and diagonals only (quadrature.c). Made with the first forces and
    kept, one real a particle. For faces along a lattice of the configured spacing; on rims with steps they do harm. */
-enum { SPH_NO_SOLID, SPH_UPDATED, SPH_CORRECTED, SPH_TOTAL, SPH_SOLIDS };
+enum {
+    SPH_NO_SOLID,
+    SPH_UPDATED,
+    SPH_CORRECTED,
+    SPH_TOTAL,
+    SPH_STABILISED,
+    SPH_NORMALISED,
+    SPH_NORMALISED_CORRECTED,
+    SPH_SOLIDS
+};
 
 /* Yield. VON_MISES: where sqrt(3 J2) exceeds Y = yield + hardening * plastic strain, S is returned along the radius.
    With hardening the plastic strain of a return is (sqrt(3 J2) - Y)/(3 mu + hardening). VON_MISES_GRAY: S times
@@ -353,12 +372,14 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_DAMPER 8192u
 #define SPH_USE_FLOW 16384u /* max_flows > 0 */
 #define SPH_USE_ENERGY 32768u /* the energy equation */
+#define SPH_USE_FORMS 131072u /* SPH_STABILISED, SPH_NORMALISED, SPH_NORMALISED_CORRECTED, or hourglass */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
     ((((use)&SPH_USE_SOLID) ? 2u * SPH_STRESSES * SPH_REAL_ : 0u) +                                         \
      (((use)&SPH_USE_TOTAL) ? SPH_DIM * SPH_REAL_ : 0u) +                                                   \
      (((use)&SPH_USE_QUADRATURE) ? SPH_REAL_ : 0u) +                                                        \
+     (((use)&SPH_USE_FORMS) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u) +                                            \
      (((use)&SPH_USE_YIELD) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? SPH_REAL_ : 0u))
 #define SPH_STATE_BYTES_ ((2u * SPH_DIM + SPH_DIM + 2u) * (SPH_DOUBLE ? 8u : 4u) + 4u + 1u)
 #define SPH_PARTICLE_BYTES(use)                                                                             \
@@ -370,6 +391,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_SHEAR) ? (SPH_DIM * SPH_DIM + 1u) * SPH_REAL_ : 0u) +                                  \
      (((use)&SPH_USE_ENERGY) ? 2u * SPH_REAL_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +             \
+     (((use)&SPH_USE_FORMS) ? (SPH_DIM * SPH_DIM + SPH_DIM + 2u) * SPH_REAL_ : 0u) +                        \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
      (((use)&SPH_USE_DAMPER) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_FLOW) ? 2u : 0u) +                         \
      (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
@@ -387,11 +409,14 @@ size_t sph_arena_bytes(const sph_config *cfg);
     ((SPH_DIM * SPH_DIM + 1u) * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_)
 #define SPH_ENERGY_SCRATCH_BYTES /* with the energy equation besides */                                     \
     ((SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_ + 64u)
+#define SPH_FORMS_SCRATCH_BYTES /* with such a form besides */                                              \
+    ((4u * SPH_DIM + 2u) * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_)
 #define SPH_ARENA_BYTES(particles, cells, threads, use)                                                     \
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      (((use)&SPH_USE_SHEAR) ? (size_t)(threads) * SPH_SHEAR_SCRATCH_BYTES : 0u) +                            \
      (((use)&SPH_USE_ENERGY) ? (size_t)(threads) * SPH_ENERGY_SCRATCH_BYTES : 0u) +                          \
+     (((use)&SPH_USE_FORMS) ? (size_t)(threads) * SPH_FORMS_SCRATCH_BYTES : 0u) +                            \
      (((use)&SPH_USE_FLOW) ? 2048u : 0u) +                                                                  \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \

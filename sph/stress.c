@@ -185,7 +185,7 @@ static void jaumann(const sph_real (*l)[SPH_DIM], const sph_real (*s)[SPH_DIM], 
 static void velocity_gradient(const sph_sim *sim, uint32_t i, const sph_real *raw, sph_real rho, bool corrects,
                               sph_real (*l)[SPH_DIM])
 {
-    const bool weak = sph_weak_scheme(sim->cfg.scheme);
+    const bool weak = sph_weak_scheme(sim->cfg.scheme) || sph_normalises(&sim->cfg); /* by volumes */
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t c = 0; c < SPH_DIM; c++) {
             sph_real sum = weak ? raw[k * SPH_DIM + c] : raw[k * SPH_DIM + c] / rho;

@@ -132,13 +132,32 @@ SPH_INLINE void sph_stress_push(const sph_choice *c, const sph_stress_home *h, c
     s[SUM_ACC + k] = s[SUM_ACC + k] + p->push[k];
 }
 
+/* the weights of a pair: of its force, of the gradient's sum, of what the home gains; normalised: m_j g is in K */
+typedef struct sph_stress_weights {
+    vreal force, gradient, gain;
+} sph_stress_weights;
+SPH_INLINE sph_stress_weights sph_weigh_stress(const sph_choice *c, const sph_home *o, const sph_near *p)
+{
+    const bool weak = sph_weak_scheme(c->scheme);
+    sph_stress_weights w;
+    if (sph_normalised(c)) {
+        w.gradient = p->inv_rho;
+        w.force = weak ? p->inv_rho * o->inv_rho : v_set(1);
+        w.gain = weak ? w.force : o->rho * p->inv_rho;
+        return w;
+    }
+    w.gradient = weak ? p->mg * p->inv_rho : p->mg;
+    w.force = w.gain = weak ? w.gradient * o->inv_rho : p->mg;
+    return w;
+}
+
 SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, const sph_home *o, const sph_stress_home *h,
                                  const sph_stress_tile *t, const sph_real *u, sph_near *p, vreal *s)
 {
     if (!SPH_WITH_SOLID || !c->solid)
         return;
-    const bool weak = sph_weak_scheme(c->scheme);
-    const vreal wl = weak ? p->mg * p->inv_rho : p->mg, w = weak ? wl * o->inv_rho : p->mg;
+    const sph_stress_weights by = sph_weigh_stress(c, o, p);
+    const vreal wl = by.gradient, w = by.force;
     vreal fn = v_set(0);
     if (c->repulsion && !p->wall)
         fn = sph_small_power(k_value(c->kernel, p->q) * f->inv_wdx, c->repulsion);
@@ -151,7 +170,7 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
         vreal d = p->dv[k];
         if (c->hat)
             d = h->u[k] - (p->wall ? v_load(p->tile->v[k] + p->j) : v_load(u + (uint32_t)k * SPH_NEAR_ROOM + p->j));
-        sph_stress_gain(c, h, p, k, d * w);
+        sph_stress_gain(c, h, p, k, d * by.gain);
         d = d * wl;
         SPH_UNROLL
         for (int l = 0; l < SPH_DIM; l++)

@@ -54,7 +54,9 @@ typedef struct sph_choice {
     uint8_t shifting;          /* the sums of shifting */
     uint8_t shear;             /* a viscous stress */
     uint8_t energy;            /* the energy equation */
-    uint8_t spare[4];
+    uint8_t form;              /* solids: SPH_STABILISED, SPH_NORMALISED (or corrected), else 0 */
+    uint8_t hourglass;         /* control of hourglass modes */
+    uint8_t spare[2];
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 24, "sph_choice is compared as three words (forces.c)");
 SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }
@@ -64,10 +66,12 @@ SPH_INLINE bool sph_rate_by_density(uint32_t scheme, uint32_t gradient)
 {
     return sph_weak_scheme(scheme) || SPH_IS(gradient, BONET_LOK);
 }
+SPH_INLINE bool sph_stabilised(const sph_choice *c) { return SPH_HAS_STABILISED && c->form == SPH_STABILISED; }
+SPH_INLINE bool sph_normalised(const sph_choice *c) { return SPH_HAS_NORMALISED && c->form == SPH_NORMALISED; }
 /* for sph_sweep.needs_inv_rho */
 SPH_INLINE uint32_t sph_needs_inv_rho(const sph_choice *c)
 {
-    if (sph_weak_scheme(c->scheme))
+    if (sph_weak_scheme(c->scheme) || sph_normalised(c))
         return true;
     return sph_diffusive(c->diffusion) || (SPH_WITH_SHIFTING && c->shifting) ? SPH_BOUNDED : false;
 }

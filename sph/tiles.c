@@ -86,10 +86,11 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real leas
         }
 }
 
-/* standard rates ask for no pressure, but that of energy does */
+/* standard rates ask for no pressure; that of energy does, and normalised kernels do, for the densities of walls */
 static bool needs_press(const sph_sim *sim)
 {
-    return sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD) || sph_has_energy(&sim->cfg);
+    return sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD) || sph_has_energy(&sim->cfg) ||
+           sph_normalises(&sim->cfg);
 }
 
 /* whether what is seen half a step back went with XSPH's velocity too (motion.h) */
@@ -166,7 +167,8 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool ho
     /* of rates the equation of state does not matter */
     const uint32_t eos = press ? r->set->eos : SPH_TAIT;
     const bool usual = SPH_WITH_FAST_PATHS && (SPH_IS(c->scheme, STANDARD) || !press) && !r->im->is_image &&
-                       !drifts_beside(r, wall) && !damped_here(r, wall) && !sph_has_energy(c);
+                       !drifts_beside(r, wall) && !damped_here(r, wall) && !sph_has_energy(c) &&
+                       (!sph_normalises(c) || sph_sums_forces(r->sim));
     (void)copied;
 #define SPH_FAST_TRY(name, eos_, floor_, inv_rho_, press_, wall_, copied_)                                         \
     if (usual && eos == SPH_##eos_ && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) &&           \

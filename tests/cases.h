@@ -24,6 +24,7 @@ typedef struct bits_case {
     bool shifting;
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
+    bool hourglass;
     bool flow;                            /* water comes in and goes out along the first axis */
     bool quiet, slowed, evened;           /* acoustic damper; damping by a rate; XSPH in the velocity */
     bool bed;                             /* walls by a polyline: a box in 1-D and 3-D */
@@ -154,6 +155,23 @@ static const bits_case bits_cases[] = {
     {"large_eddies_no_slip", CASE_BASE, .shear = SPH_SMAGORINSKY_WICK, .face = SPH_MIRROR_NO_SLIP, .books = true},
     {"large_eddies_periodic", CASE_BASE, .shear = SPH_SMAGORINSKY, .face = SPH_PERIODIC,
      .integrator = SPH_LEAP_FROG},
+    /* forms of solids */
+    {"stabilised", CASE_SOLID, .solid = SPH_STABILISED},
+    {"stabilised_kick_drift_kick", CASE_SOLID, .solid = SPH_STABILISED, .integrator = SPH_KICK_DRIFT_KICK,
+     .xsph = true, .hat = true, .yield = SPH_VON_MISES, .held = true, .books = true},
+    {"stabilised_weak", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST,
+     .solid = SPH_STABILISED, .scheme = SPH_WEAK, .integrator = SPH_RUNGE_KUTTA, .beside = true},
+    {"stabilised_symmetry", CASE_SOLID, .solid = SPH_STABILISED, .face = SPH_SYMMETRY,
+     .integrator = SPH_LEAP_FROG},
+    {"normalised", CASE_SOLID, .solid = SPH_NORMALISED, .integrator = SPH_LEAP_FROG, .held = true, .books = true},
+    {"normalised_corrected", CASE_BASE, .solid = SPH_NORMALISED_CORRECTED, .beside = true,
+     .integrator = SPH_KICK_DRIFT_KICK},
+    {"normalised_corrected_periodic", CASE_SOLID, .solid = SPH_NORMALISED_CORRECTED, .face = SPH_PERIODIC,
+     .scheme = SPH_WEAK, .yield = SPH_VON_MISES},
+    {"hourglass", CASE_SOLID, .solid = SPH_TOTAL, .integrator = SPH_KICK_DRIFT_KICK, .hourglass = true,
+     .books = true, .held = true},
+    {"hourglass_symmetry", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = CASE_NO_WALL,
+     .solid = SPH_TOTAL, .damage = SPH_BENZ_ASPHAUG, .face = SPH_SYMMETRY, .hourglass = true},
     /* inflows and outflows */
     {"flow", CASE_BASE, .flow = true, .books = true},
     {"flow_kick_drift_kick", CASE_BASE, .flow = true, .integrator = SPH_KICK_DRIFT_KICK, .diffusion = SPH_MOLTENI,
@@ -282,6 +300,7 @@ static sph_config case_config(const bits_case *b)
     c.diffusion = b->diffusion;
     c.gradient = b->gradient;
     c.shear = b->shear;
+    c.hourglass = b->hourglass ? 0.1 : 0;
     c.integrator = b->integrator;
     c.energy = b->energy;
     c.xsph = b->xsph ? 0.5 : 0;

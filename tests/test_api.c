@@ -458,7 +458,7 @@ static void solids_cost_so_many_bytes_a_particle(void **state)
 {
     static const char *const names[] = {"fluid", "updated", "corrected", "total"};
     (void)state;
-    for (uint32_t form = 0; form < SPH_SOLIDS; form++) {
+    for (uint32_t form = 0; form <= SPH_TOTAL; form++) {
         const double elastic = particle_bytes(form, 0, 0), all = form ? particle_bytes(form, SPH_VON_MISES,
             SPH_DIM > 1) : elastic;
         print_message("%s: %.1f bytes a particle, yield and damage %.1f more\n", names[form], elastic, all - elastic);

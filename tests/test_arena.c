@@ -38,7 +38,7 @@ static bool combine(uint32_t i, combination *o)
              (i % 3 ? SPH_USE_MIRRORS : 0) | (i >> 9 ? SPH_USE_QUADRATURE : 0) | use_of_solid[c->solid];
     return sph_config_check(c, NULL) == SPH_OK;
 }
-enum { COMBINATIONS = SPH_SOLIDS << 8 };
+enum { COMBINATIONS = (SPH_TOTAL + 1) << 8 };
 
 static void the_constant_is_never_too_small(void **state)
 {

@@ -29,6 +29,8 @@
     X(brittle)                                                                                              \
     X(hole)                                                                                                 \
     X(chamber)                                                                                              \
+    X(two_blocks)                                                                                           \
+    X(clamped_beam)                                                                                         \
     X(block)                                                                                                \
     X(caldera)                                                                                              \
     X(solitary)                                                                                             \

@@ -9,7 +9,7 @@
 /* parameters that every solid scene takes after the common ones */
 enum {
     SOLID_FORM = SCENE_COMMON, SOLID_REPULSION, SOLID_EPSILON, SOLID_EXPONENT, SOLID_STRAIN, SOLID_MU, SOLID_YIELD,
-    SOLID_HARDENING, SOLID_PRINTED, SOLID_COMMON
+    SOLID_HARDENING, SOLID_PRINTED, SOLID_HOURGLASS, SOLID_COMMON
 };
 
 /* kernel, h, alpha, books, integrator, cfl as in SCENE_PARAMS_OF; form_: SPH_UPDATED ...; yield_: 0: elastic */
@@ -18,7 +18,8 @@ enum {
 #define SOLID_PARAMS_DAMPED(kernel_, h_, alpha_, books_, integrator_, cfl_, form_, repulsion_, mu_, yield_, damping_)  \
     SCENE_PARAMS_OF(kernel_, h_, SPH_LINEAR, SPH_ARTIFICIAL, alpha_, SPH_NO_DIFFUSION, SCENE_ADAMI, damping_, 0,       \
                     books_, integrator_, cfl_, 0),                                                                     \
-    {"form", "-", "solid form: updated corrected total", (form_) - 1, 0, 2, SCENE_CHOICE},                             \
+    {"form", "-", "solid form: updated corrected total stabilised normalised normalised_corrected", (form_) - 1, 0,    \
+     SPH_SOLIDS - 2, SCENE_CHOICE},                                                                                    \
     {"repulsion", "-", "artificial stress: none principal components", repulsion_, 0, 2, SCENE_CHOICE},                \
     {"epsilon", "-", "factor of the artificial stress; 0: none", 0.3, 0, 10, SCENE_NUMBER},                            \
     {"exponent", "-", "exponent of the artificial stress", 4, 1, 8, SCENE_WHOLE},                                      \
@@ -26,19 +27,21 @@ enum {
     {"mu", "K", "shear modulus", mu_, 0, 100, SCENE_NUMBER},                                                           \
     {"yield", "K", "yield stress in simple tension; 0: elastic", yield_, 0, 100, SCENE_NUMBER},                        \
     {"hardening", "K", "rise of the yield stress with plastic strain", 0, 0, 100, SCENE_NUMBER},                       \
-    {"printed", "-", "yield and damage as Gray 2001 prints them: no yes", 0, 0, 1, SCENE_CHOICE}
+    {"printed", "-", "yield and damage as Gray 2001 prints them: no yes", 0, 0, 1, SCENE_CHOICE},                      \
+    {"hourglass", "-", "control of hourglass modes (form=total); 0: none", 0, 0, 100, SCENE_NUMBER}
 
 /* scene_config with rho0 = c0 = 1 and the parameters above; damage is left to the scene */
 static inline sph_config solid_config(const double *p, double dx)
 {
     sph_config c = scene_config(p, dx, 1, 1);
     c.solid = (uint32_t)p[SOLID_FORM] + 1;
-    const bool repels = p[SOLID_EPSILON] > 0 && c.solid != SPH_TOTAL;
+    const bool repels = p[SOLID_EPSILON] > 0 && c.solid < SPH_TOTAL;
     c.artificial_stress = repels ? (uint32_t)p[SOLID_REPULSION] : SPH_NO_ARTIFICIAL_STRESS;
     c.stress_epsilon = p[SOLID_EPSILON];
     c.stress_exponent = (uint32_t)p[SOLID_EXPONENT];
     c.xsph_strain = p[SOLID_STRAIN] != 0;
     c.yield = p[SOLID_YIELD] > 0 ? p[SOLID_PRINTED] != 0 ? SPH_VON_MISES_GRAY : SPH_VON_MISES : SPH_NO_YIELD;
+    c.hourglass = c.solid == SPH_TOTAL ? p[SOLID_HOURGLASS] : 0;
     c.on_leave = SPH_FAIL;
     return c;
 }

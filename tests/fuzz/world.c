@@ -56,7 +56,7 @@ static sph_config take_config(world *w)
         c.yield = pick(in, SPH_YIELDS);
         c.damage = SPH_DIM > 1 ? pick(in, SPH_DAMAGES) : 0;
         c.max_flaws = pick(in, 2) ? 20000 : 40;
-        c.artificial_stress = solid == SPH_TOTAL ? 0 : pick(in, SPH_ARTIFICIAL_STRESSES);
+        c.artificial_stress = solid >= SPH_TOTAL ? 0 : pick(in, SPH_ARTIFICIAL_STRESSES);
         c.stress_exponent = 1 + pick(in, 8);
         c.xsph_strain = c.xsph > 0 && pick(in, 2);
         c.max_stretch = 1 + take_near(in, 1);

@@ -42,6 +42,7 @@ static void body_pair(o_scene *s, o_particle *i, const o_particle *j)
     if (solids) {
         o_stress_force(s, i, j, &p);
         o_contact(s, i, j, &p);
+        o_hourglass(s, i, j, &p);
     } else {
         o_continuity(s, i, j, &p);
         o_pressure_force(s, i, j, &p);
@@ -118,6 +119,8 @@ void o_forces(o_scene *s)
         o_smooth(s);
         o_stresses(s);
     }
+    if (o_make_forms(s))
+        o_stresses(s);
     for (uint32_t a = 0; a < s->n; a++) {
         o_particle *i = &s->own[a];
         const o_set *set = &s->set[i->set];

@@ -77,6 +77,26 @@ static double sum_of(o_scene *s, const o_particle *i, double (*e)[3])
     return scale;
 }
 
+bool o_is_singular(const double (*e)[3])
+{
+    const double det = determinant(e), mean = norm(e) / sqrt(SPH_DIM);
+    return !(det > 1e-3 * pow(mean, SPH_DIM)) || !(det > pow(0.6 * pow(2, -SPH_DIM), SPH_DIM));
+}
+double o_inverse(o_scene *s, const double (*e)[3], double terms, double (*inv)[3])
+{
+    const double det = determinant(e), mean = norm(e) / sqrt(SPH_DIM);
+    const double least = o_max(1e-3 * pow(mean, SPH_DIM), pow(0.6 * pow(2, -SPH_DIM), SPH_DIM));
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++)
+            inv[k][l] = k == l;
+    o_close(s, "a gradient's matrix that is nearly singular", det, least, 0.1 * terms * pow(mean, SPH_DIM - 1));
+    if (o_is_singular(e))
+        return 1;
+    invert(e, inv);
+    const double size = norm((const double(*)[3])inv);
+    return size * (1 + size * terms);
+}
+
 static void correct(o_scene *s, o_particle *i)
 {
     const bool solids = o_has_solids(s), wants = solids ? o_is_solid(s, i) : o_is_body(s, i);

@@ -30,6 +30,9 @@ static void behind(const o_scene *s, o_particle *p, int axis, int side)
     p->tangent[axis] = -p->tangent[axis];
     p->way[axis] = -p->way[axis];
     p->beside[axis] = -p->beside[axis];
+    p->slant[axis] = -p->slant[axis];
+    p->row[axis] = -p->row[axis];
+    p->drawn[axis] = -p->drawn[axis];
     double *const velocity[] = {p->v, p->wall, p->seen, p->smooth};
     for (int k = 0; k < 4; k++)
         for (int l = 0; l < 3; l++)
@@ -49,6 +52,8 @@ static void behind(const o_scene *s, o_particle *p, int axis, int side)
             p->pull[axis][l] = -p->pull[axis][l];
             p->pull[l][axis] = -p->pull[l][axis];
         }
+        p->deform[axis][l] = -p->deform[axis][l];
+        p->deform[l][axis] = -p->deform[l][axis];
         p->inverse[axis][l] = -p->inverse[axis][l];
         p->inverse[l][axis] = -p->inverse[l][axis];
     }

@@ -28,7 +28,8 @@ double o_courant_number(const sph_config *c)
     if (!c->solid)
         return o_min(c->cfl, (c->gradient ? 0.25 : 0.5) / (1 + 4 * c->damper));
     const double x = d / (0.01 / 8), stands = x < 1e-3 ? 0 : 0.22 * cbrt(o_min(x, 1e6));
-    const double own = o_max(stands * (c->solid >= SPH_CORRECTED ? 0.42 : 0.75), 0.05);
+    const bool plain = c->solid <= SPH_UPDATED || c->solid == SPH_STABILISED;
+    const double own = o_max(stands * (plain ? 0.75 : 0.42), 0.05);
     return o_min(c->cfl, own * (rk ? cbrt(2) : 1));
 }
 

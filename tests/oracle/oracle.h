@@ -81,6 +81,11 @@ typedef struct o_particle {
     double pull[3][3];         /* artificial stress R */
     double cover;              /* Q of the quadrature weights */
     o_sum phi;                 /* the weight; 0: 1 */
+    /* forms.c. Stabilised: S and D of the first forces, level, row - mean, col/V, axes in tension; normalised: N in
+       mapped, q in slant; hourglass: F, k; the others are scales */
+    double fill, slant[3], row[3], drawn[3], row_scale, drawn_scale, mapped[3][3], deform[3][3], stiff, deform_scale;
+    int level;
+    bool on[3];
     double quiet;              /* Pa, pressure of the damper */
     double way[3];             /* how its place moves: v + xsph, m/s */
     double beside[3];          /* xsph alone */
@@ -133,6 +138,7 @@ static inline bool o_is_weak(const o_scene *s)
     return s->cfg.scheme == SPH_WEAK || s->cfg.scheme == SPH_DIRECT || s->cfg.scheme == SPH_WEAK_WICK;
 }
 static inline bool o_has_solids(const o_scene *s) { return s->cfg.solid != SPH_NO_SOLID; }
+static inline bool o_corrects(const o_scene *s) { return s->cfg.solid == SPH_CORRECTED || s->cfg.solid == SPH_TOTAL; }
 static inline double o_phi(const o_particle *p) { return p->phi.v > 0 ? p->phi.v : 1; }
 static inline double o_dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static inline double o_max(double a, double b) { return a > b ? a : b; }
@@ -197,6 +203,15 @@ void o_warm(const o_scene *s, o_particle *i);
 double o_sound_as_mu(const o_scene *s, const o_particle *p);
 void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);   /* diffusion.c */
 void o_boundary(o_scene *s, o_particle *i, const o_particle *j);                           /* boundary.c */
+bool o_make_forms(o_scene *s);                                                             /* forms.c */
+bool o_normalises(const o_scene *s);
+double o_normalised_gradient(const o_scene *s, const o_particle *i, const o_pair *p, double *grad);
+double o_stabilised_gradient(const o_scene *s, const o_particle *i, const o_particle *j, const o_pair *p,
+                             double (*grad)[3]);
+void o_hourglass(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
+/* gradient.c: the inverse of a sum of x (x) grad W, or 1 where it is singular; its scale */
+bool o_is_singular(const double (*e)[3]);
+double o_inverse(o_scene *s, const double (*e)[3], double terms, double (*inv)[3]);
 void o_stresses(o_scene *s);                                                               /* stress.c */
 void o_stress_force(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
 void o_strain_rates(const o_scene *s, o_particle *i);

@@ -44,12 +44,12 @@ static void draw_faces(plan *p)
 static void draw_solids(plan *p)
 {
     sph_config *c = &p->cfg;
-    c->solid = SPH_UPDATED + pick(3);
+    c->solid = SPH_UPDATED + pick(6);
     c->scheme = chance(0.6) ? SPH_STANDARD : SPH_WEAK;
     c->yield = pick(SPH_YIELDS);
     c->damage = SPH_DIM > 1 ? pick(SPH_DAMAGES) : 0;
     c->max_flaws = c->damage ? 4000 : 0;
-    c->artificial_stress = c->solid == SPH_TOTAL ? 0 : pick(SPH_ARTIFICIAL_STRESSES);
+    c->artificial_stress = c->solid >= SPH_TOTAL ? 0 : pick(SPH_ARTIFICIAL_STRESSES);
     c->stress_exponent = chance(0.5) ? 4 : 1 + pick(8);
     c->stress_epsilon = range(0, 0.6);
     c->xsph_strain = c->xsph > 0 && chance(0.5);
@@ -68,7 +68,7 @@ static void draw_usual(plan *p)
     c->xsph = 0;
     c->diffusion = c->solid == SPH_NO_SOLID && chance(0.5) ? SPH_HYDROSTATIC : SPH_NO_DIFFUSION;
     c->gradient = c->solid == SPH_NO_SOLID && chance(0.3) ? SPH_BONET_LOK : SPH_PLAIN;
-    c->artificial_stress = c->solid == SPH_NO_SOLID || c->solid == SPH_TOTAL ? 0 : pick(SPH_ARTIFICIAL_STRESSES);
+    c->artificial_stress = c->solid == SPH_NO_SOLID || c->solid >= SPH_TOTAL ? 0 : pick(SPH_ARTIFICIAL_STRESSES);
     c->stress_exponent = 4;
     c->xsph_strain = false;
 }
@@ -424,13 +424,17 @@ void plan_draw(plan *p, uint64_t seed)
     p->cfg.shifting = p->cfg.solid == SPH_NO_SOLID && !p->still_step && chance(0.4) ? range(0.1, 4) : 0;
     if (p->cfg.shifting > 0 && !SPH_DOUBLE) /* it pushes hard, and its bounds switch: rounding errors of floats grow */
         p->steps = (uint32_t)o_min(p->steps, 5);
-    p->cfg.face_quadrature = SPH_DIM > 1 && p->cfg.solid >= SPH_CORRECTED && chance(0.5);
+    const bool corrects = p->cfg.solid == SPH_CORRECTED || p->cfg.solid == SPH_TOTAL;
+    p->cfg.face_quadrature = SPH_DIM > 1 && corrects && chance(0.5);
     for (uint32_t k = 0; k < p->solids; k++)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
     draw_tables(p);
     draw_the_going(p);
     draw_small(p);
     draw_energy(p);
+    if (p->cfg.solid >= SPH_NORMALISED) /* forces and rates of near-singular sums make rounding errors grow */
+        p->steps = (uint32_t)o_min(p->steps, 4);
+    p->cfg.hourglass = p->cfg.solid == SPH_TOTAL && chance(0.4) ? range(0.01, 1) : 0;
 }
 
 void plan_print(const plan *p)
@@ -442,7 +446,7 @@ void plan_print(const plan *p)
         {"inviscid", "artificial", "approaching", "morris"},
         {"no diffusion", "molteni", "hydrostatic"},
         {"plain", "bonet_lok", "renormalised"},
-        {"no solid", "updated", "corrected", "total"},
+        {"no solid", "updated", "corrected", "total", "stabilised", "normalised", "normalised_corrected"},
         {"tait", "tait_gray", "linear", "isothermal", "ideal_gas"},
         {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"},
         {"both sides", "front", "face"}};
@@ -454,8 +458,8 @@ void plan_print(const plan *p)
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph,
            c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
-    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g\n", c->shear, c->smagorinsky, c->subgrid,
-           c->filter, c->energy, c->gamma);
+    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g\n", c->shear, c->smagorinsky,
+           c->subgrid, c->filter, c->energy, c->gamma, c->hourglass);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,

@@ -178,6 +178,7 @@ void o_turn_round(o_particle *p, int k, double plane, bool tensors)
     p->v[k] = -p->v[k];
     p->a[k].v = -p->a[k].v;
     p->drift[k].v = -p->drift[k].v;
+    p->slant[k] = -p->slant[k];
     for (int l = 0; l < 3 && tensors; l++) {
         if (l == k)
             continue;

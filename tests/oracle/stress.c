@@ -20,7 +20,7 @@ static double size_of(const double (*m)[3])
 
 static void make_t(o_scene *s, o_particle *p)
 {
-    const bool corrected = s->cfg.solid >= SPH_CORRECTED && o_is_solid(s, p);
+    const bool corrected = o_corrects(s) && o_is_solid(s, p);
     const double w = o_is_weak(s) ? 1 : 1 / (p->rho * p->rho), back = o_is_weak(s) ? 1 : 1 / p->rho;
     p->t_scale = size_of((const double(*)[3])p->sigma) * (corrected ? back * p->inverse_scale : w);
     for (int k = 0; k < 3; k++)
@@ -59,6 +59,34 @@ void o_stresses(o_scene *s)
         make_t(s, &s->all[i]);
 }
 
+/* forms whose gradient of the kernel is another (forms.c) */
+static void form_force(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p)
+{
+    const double m = s->set[j->set].mass, w = o_is_weak(s) ? m / (i->rho * j->rho) : m;
+    const bool wall = o_is_ghost(s, j), own = o_normalises(s);
+    double a[3] = {0}, grad[3][3] = {{0}}, plain[3] = {0}, scale, rate = p->slope;
+    for (int k = 0; k < SPH_DIM; k++)
+        plain[k] = p->g * p->x[k];
+    if (own)
+        rate = o_normalised_gradient(s, i, p, plain);
+    if (own)
+        for (int k = 0; k < SPH_DIM; k++)
+            for (int l = 0; l < SPH_DIM; l++)
+                grad[k][l] = plain[l];
+    scale = own ? rate : o_stabilised_gradient(s, i, j, p, grad);
+    for (int k = 0; k < SPH_DIM; k++)
+        for (int l = 0; l < SPH_DIM; l++)
+            a[k] -= w * (i->t[k][l] + j->t[k][l]) * grad[k][l];
+    if (o_is_body(s, i))
+        o_push(s, i, j, a, w * scale * (i->t_scale + j->t_scale));
+    const double c = own || o_is_weak(s) ? p->volume : m;
+    for (int k = 0; k < SPH_DIM; k++) {
+        const double v = i->v[k] + i->smooth[k] - j->v[k] - (wall ? 0 : j->smooth[k]);
+        for (int l = 0; l < SPH_DIM; l++)
+            o_add(&i->gradient[k][l], c * v * plain[l], c * fabs(v) * rate);
+    }
+}
+
 void o_stress_force(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p)
 {
     const double m = s->set[j->set].mass, w = o_is_weak(s) ? m / (i->rho * j->rho) : m;
@@ -67,6 +95,10 @@ void o_stress_force(const o_scene *s, o_particle *i, const o_particle *j, const 
     double a[3] = {0}, v[3], near = 0;
     if (p->apart)
         return;
+    if (o_normalises(s) || (s->cfg.solid == SPH_STABILISED && !wall)) {
+        form_force(s, i, j, p);
+        return;
+    }
     if (!wall && s->cfg.artificial_stress != SPH_NO_ARTIFICIAL_STRESS)
         near = pow(p->w / o_weight(s->cfg.kernel, dx, s->cfg.smoothing_length), s->cfg.stress_exponent);
     for (int k = 0; k < SPH_DIM; k++) {
@@ -85,8 +117,8 @@ void o_stress_force(const o_scene *s, o_particle *i, const o_particle *j, const 
 /* L of a particle, and its scale */
 static double gradient_of(const o_scene *s, const o_particle *i, double (*l)[3])
 {
-    const bool corrected = s->cfg.solid >= SPH_CORRECTED && o_is_solid(s, i);
-    const double plain = o_is_weak(s) ? 1 : 1 / i->rho;
+    const bool corrected = o_corrects(s) && o_is_solid(s, i);
+    const double plain = o_is_weak(s) || o_normalises(s) ? 1 : 1 / i->rho;
     double scale = 0;
     for (int k = 0; k < SPH_DIM; k++)
         for (int c = 0; c < SPH_DIM; c++) {

@@ -1,0 +1,24 @@
+build_o2/obj/2f/sph/flaws.o: sph/flaws.c sph/dmath.h sph/name.h \
+ sph/setup.h sph/internal.h sph/arrays.h sph/columns.h sph/digest.h \
+ sph/eos.h sph/sph.h sph/modules.h sph/knobs.h sph/options.h \
+ sph/shifting.h sph/sponge.h sph/fields.h sph/lanes.h sph/checks.h \
+ sph/report.h sph/arithmetic.h
+sph/dmath.h:
+sph/name.h:
+sph/setup.h:
+sph/internal.h:
+sph/arrays.h:
+sph/columns.h:
+sph/digest.h:
+sph/eos.h:
+sph/sph.h:
+sph/modules.h:
+sph/knobs.h:
+sph/options.h:
+sph/shifting.h:
+sph/sponge.h:
+sph/fields.h:
+sph/lanes.h:
+sph/checks.h:
+sph/report.h:
+sph/arithmetic.h:

@@ -1,0 +1,16 @@
+build_o2/obj/2f/sph/records.o: sph/records.c sph/records.h sph/fields.h \
+ sph/lanes.h sph/checks.h sph/sph.h sph/modules.h sph/name.h sph/knobs.h \
+ sph/options.h sph/shifting.h sph/sponge.h sph/stream.h sph/arithmetic.h
+sph/records.h:
+sph/fields.h:
+sph/lanes.h:
+sph/checks.h:
+sph/sph.h:
+sph/modules.h:
+sph/name.h:
+sph/knobs.h:
+sph/options.h:
+sph/shifting.h:
+sph/sponge.h:
+sph/stream.h:
+sph/arithmetic.h:
