@@ -157,7 +157,7 @@ PREFIX ?= /usr/local
 DESTDIR ?=
 INSTALL_BUILDS ?= $(BUILDS)
 INSTALL_TOOL ?= $(TOOL)
-INSTALLED_HEADERS := sph/sph.h sph/modules.h sph/knobs.h sph/name.h sph/options.h sph/sponge.h sph/shifting.h
+INSTALLED_HEADERS := sph/sph.h sph/modules.h sph/knobs.h sph/name.h sph/options.h sph/sponge.h sph/shifting.h sph/edges.h
 version := $(shell sed -n 's/^.define SPH_VERSION \([0-9]*\)u.*/\1/p' sph/sph.h)
 install: $(INSTALL_BUILDS:%=$(BUILD)/libsph%.a) $(INSTALL_TOOL)
 	$(Q)mkdir -p "$(DESTDIR)$(PREFIX)/lib/pkgconfig" "$(DESTDIR)$(PREFIX)/include/sph"

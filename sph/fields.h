@@ -49,6 +49,9 @@ typedef sph_int sph_pos;
     X(damage, sph_real, 1, "1", sph_damages(c), SPH_CARRIED | SPH_SHARE) /* D^(1/SPH_DIM) */                      \
     X(shift, sph_pos, SPH_DIM, "quantum", sph_is_total(c), SPH_DISPLACED | SPH_VECTOR) /* since the start */      \
     X(quadrature, sph_real, 1, "1", sph_weighs_faces(c), SPH_CARRIED | SPH_NOT_NEGATIVE) /* phi; 0: 1 */       \
+    X(strain_memory, sph_real, SPH_NL, "1/s", sph_is_matched(c), SPH_CARRIED) /* psi, r and q, z w u of edges.c */   \
+    X(stress_memory, sph_real, SPH_NT * (SPH_DIM > 2 ? 2 : 1), "Pa s", sph_is_matched(c), SPH_CARRIED)             \
+    X(way_memory, sph_real, SPH_NL, "m", sph_is_matched(c), SPH_CARRIED)                                          \
     X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: an index into src */              \
     X(set, uint8_t, 1, "1", true, SPH_PLACED)                                                                     \
     SPH_EXTRA_FIELDS(X)

@@ -18,6 +18,7 @@
 #include "continuity.h"
 #include "diffusion.h"
 #include "gradient.h"
+#include "marks.h"
 #include "pair_power.h"
 #include "pressure.h"
 #include "reference.h"
@@ -153,7 +154,8 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
     const uint32_t rates = SUM_MASK(DRHO) | gradient;
     const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
                             (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS) : 0) |
-                            (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0);
+                            (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0) |
+                            (c->edge ? gradient : 0);
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
 }
 
@@ -462,7 +464,8 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .repulsion = (uint8_t)(repels ? c->stress_exponent : 0),
                         .part = (uint8_t)part,
                          .shifting = forces && sph_shifts(c),
-                         .shear = forces && sph_shears(c)};
+                         .shear = forces && sph_shears(c),
+                        .edge = forces && sph_replaces(c)};
 }
 
 /* what the tiles of bodies must be of one kind for (sph_sweep.apart) */
@@ -635,6 +638,20 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
         finish_powers(sim, t, h, body);
 }
 
+/* edges that let waves out */
+static void finish_edges(const sph_sim *sim, const sph_thread *t, uint32_t h, sph_real *acc)
+{
+    const sph_set *set = &sim->set[t->home_set[h]];
+    sph_real raw[SPH_NL], l[SPH_DIM][SPH_DIM] = {{0}}, v[SPH_DIM];
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        v[k] = t->home.v[k][h];
+    if (sph_replaces(&sim->cfg)) {
+        raw_gradient(sim, t, h, raw);
+        sph_velocity_gradient(sim, t->home_at[h], raw, t->home.rho[h], sph_corrects(&sim->cfg), l);
+    }
+    sph_edge_force(sim, set, t->home_at[h], (const sph_real(*)[SPH_DIM])l, v, acc);
+}
+
 /* along the axes on which a set is held it feels no force; what moves it does work against it (and on its inertia) */
 static void hold(sph_sim *sim, const sph_set *set, uint32_t i, sph_real *acc)
 {
@@ -679,6 +696,8 @@ SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
         acc[k] = f->gravity[k] - v_fold(t->sum[SUM_ACC + k][h]) * f->slope;
     if ((SPH_HAS_EXTRAS && f->extras) || (SPH_HAS_FORCE_WALLS && sim->has_force_wall))
         finish_extras(sim, t, h, acc);
+    if (SPH_HAS_EDGES && sph_has_edges(&sim->cfg) && sph_is_solid(set))
+        finish_edges(sim, t, h, acc);
     if (SPH_HAS_HELD && sph_held(sim, set))
         hold(sim, set, i, acc);
     SPH_UNROLL

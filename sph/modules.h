@@ -66,6 +66,7 @@
     X(HELD, SPH_WITH_SOLID) /* sets that are held or pulled */                                             \
     X(SPONGE, 1) /* layers that take in waves */                                                           \
     X(SHIFTING, 1) /* particle shifting */                                                                 \
+    X(EDGES, SPH_WITH_SOLID && SPH_WITH_KICK_DRIFT_KICK) /* edges that let elastic waves out */                      \
     X(BODY_FORCE, 1) /* a body force beside gravity */                                                     \
     X(BOOKS, 1) /* work and dissipation */                                                                 \
     X(OBJECT_PROBES, 1) /* every object shows that it was built soundly and like the others (arithmetic.h) */ \
@@ -112,6 +113,7 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_HAS_DAMAGE (SPH_WITH_SOLID && SPH_WITH_DAMAGE && SPH_DIM > 1)
 #define SPH_HAS_REPULSION (SPH_WITH_SOLID && SPH_WITH_ARTIFICIAL_STRESS)
 #define SPH_HAS_QUADRATURE (SPH_HAS_CORRECTION && SPH_WITH_QUADRATURE && SPH_DIM > 1)
+#define SPH_HAS_EDGES (SPH_WITH_SOLID && SPH_WITH_KICK_DRIFT_KICK && SPH_WITH_EDGES)
 #define SPH_HAS_HAT (SPH_WITH_SOLID && SPH_WITH_XSPH && SPH_WITH_XSPH_STRAIN)
 
 /* true if `choice` is SPH_<name> and that was compiled in: how the kernel asks for a choice everywhere */

@@ -20,6 +20,7 @@
 #ifndef SPH_OPTIONS_H
 #define SPH_OPTIONS_H
 
+#include "edges.h"
 #include "shifting.h"
 #include "sponge.h"
 /* larger magnitudes are refused: squares of them must stay finite in a float's range */
@@ -148,6 +149,7 @@
       "quadrature weights beside the faces of sets with flat_faces (SPH_CORRECTED, SPH_TOTAL)")                        \
     O(A, max_stretch, REAL, 1.25, 1, 8, true, "1 .. 8", FIXED, "-",                                                   \
       "SPH_TOTAL: how far a bond may be drawn, in supports; cells grow with it")                                      \
+    SPH_EDGE_OPTIONS(O, P, A)                                                                                         \
     SPH_SHIFTING_OPTIONS(O, P, A)                                                                                     \
     SPH_SPONGE_OPTIONS(O, P, A)                                                                                       \
     SPH_EXTRA_OPTIONS(O, P, A)

@@ -52,7 +52,8 @@ typedef struct sph_choice {
     uint8_t apart;             /* the factors are of one kind of pairs */
     uint8_t shifting;          /* the sums of shifting */
     uint8_t shear;             /* a viscous stress */
-    uint8_t spare[5];
+    uint8_t edge;              /* edges that want the velocity gradient with the forces */
+    uint8_t spare[4];
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 24, "sph_choice is compared as three words (forces.c)");
 SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }

@@ -27,6 +27,7 @@
     X(chamber)                                                                                              \
     X(block)                                                                                                \
     X(caldera)                                                                                              \
+    X(plane_wave)                                                                                           \
     X(solitary)
 #else
 #define SCENE_LIST(X)                                                                                       \
