@@ -124,10 +124,11 @@ void sph_edge_force(const sph_sim *sim, const sph_set *set, uint32_t i, const sp
         before = sim->absorbing[i];
     for (uint32_t k = 0; k < SPH_DIM; k++)
         before += acc[k] * v[k];
-    if (sph_replaces(&sim->cfg) && m->level > 0 && sph_is_solid(set))
+    const bool replaced = sph_replaces(&sim->cfg) && m->level > 0;
+    if (replaced)
         replace(sim, set, m, l, v, acc);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        acc[k] += m->push[k];
+        acc[k] += replaced ? 0 : m->push[k];
         after += acc[k] * v[k];
     }
     sim->absorbing[i] = before - after;
@@ -262,10 +263,10 @@ static void damping_of(const sph_edge_mark *m, double *d)
     d[2] = x * y * z;
 }
 
-/* damps component k of a velocity; returns the energy that it loses, J/kg */
-static double damp(const sph_buffer *b, uint32_t i, uint32_t k, const double *d, double alpha, double dt)
+/* damps component k of a velocity less that of what lies beyond; returns the energy that it loses, J/kg */
+static double damp(const sph_buffer *b, uint32_t i, uint32_t k, double ref, const double *d, double alpha, double dt)
 {
-    const double h = 0.5 * dt, c = 1 / (1 + alpha * h), v = (double)b->vel[k][i];
+    const double h = 0.5 * dt, c = 1 / (1 + alpha * h), was = (double)b->vel[k][i], v = was - ref;
     sph_real *z = &b->way_memory[k][i], *w = SPH_DIM > 1 ? &b->way_memory[SPH_DIM > 1 ? SPH_DIM + k : 0][i] : NULL;
     sph_real *u = SPH_DIM > 2 ? &b->way_memory[SPH_DIM > 2 ? 2 * SPH_DIM + k : 0][i] : NULL;
     const double z0 = (double)*z, w0 = w ? (double)*w : 0, u0 = u ? (double)*u : 0, az = alpha * z0;
@@ -273,14 +274,14 @@ static double damp(const sph_buffer *b, uint32_t i, uint32_t k, const double *d,
     const double more = d[0] * c * az - d[1] * (c * w0 - h * c * c * az) -
                         d[2] * (c * u0 + h * c * c * w0 - h * h * c * c * c * az);
     const double mean = (v + h * more) / under, way = c * (mean - az), wm = c * (w0 + h * way), um = c * (u0 + h * wm);
-    const sph_real to = (sph_real)(2 * mean - v);
+    const sph_real to = (sph_real)(ref + (2 * mean - v));
     *z = (sph_real)(z0 + dt * way);
     if (w)
         *w = (sph_real)(2 * wm - w0);
     if (u)
         *u = (sph_real)(2 * um - u0);
     b->vel[k][i] = to;
-    return 0.5 * (v * v - (double)to * (double)to);
+    return 0.5 * (was * was - (double)to * (double)to);
 }
 
 static void layer_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
@@ -301,7 +302,7 @@ static void layer_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
         damping_of(m, d);
         for (uint32_t k = 0; k < SPH_DIM && matched && d[0] > 0; k++)
             if (!(held >> k & 1))
-                lost += damp(b, i, k, d, sph_layer_shift(sim, s), sim->dt);
+                lost += damp(b, i, k, (double)m->velocity[k], d, sph_layer_shift(sim, s), sim->dt);
         sum += s->mass * lost;
     }
     sim->taken[chunk] = sum;
@@ -349,7 +350,7 @@ static double let_out(const sph_sim *sim, const sph_edge_line *l, const uint32_t
         double sum = 0;
         for (uint32_t n = 0; n < l->count; n++)
             sum += weight[n] * (double)b->vel[k][at[n]];
-        s[k] = (sph_real)(sum - (double)l->velocity[k]);
+        s[k] = (sph_real)(sum - (double)sim->edge_mark[l->id[0]].velocity[k]);
     }
     const double rate = sim->dt * squares / sim->cfg.spacing;
     split(s, l->normal, (sph_real)((1 - sph_exp(-cp * rate)) / squares),

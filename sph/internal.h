@@ -62,6 +62,7 @@ typedef struct sph_material {
 typedef struct sph_edge_mark {
     sph_real normal[SPH_DIM]; /* outward */
     sph_real cosine;          /* H: of the angle between it and the line from the source */
+    sph_real velocity[SPH_DIM]; /* m/s, of what lies beyond */
     sph_real damp[SPH_DIM];   /* d of the matched layer, 1/s */
     sph_real push[SPH_DIM];   /* m/s^2, of the stress that stood at the edge at the start */
     sph_real stress[SPH_NT];  /* Pa, that stress */
@@ -72,7 +73,7 @@ typedef struct sph_edge_mark {
 /* a line of particles from an edge inward */
 typedef struct sph_edge_line {
     uint32_t id[SPH_EDGE_LINE], count;
-    sph_real normal[SPH_DIM], velocity[SPH_DIM]; /* velocity: m/s, of what lies beyond */
+    sph_real normal[SPH_DIM];
 } sph_edge_line;
 
 /* wall sets that move or vanish together */

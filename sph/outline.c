@@ -279,17 +279,15 @@ static void look_nearer(const sph_sim *sim, void *ctx, uint32_t j, const double 
 }
 
 /* a line from particle i inward against n; false where there is no room for it */
-static bool add_line(sph_sim *sim, const sph_edges *e, uint32_t axis, uint32_t i, const double *n)
+static bool add_line(sph_sim *sim, uint32_t axis, uint32_t i, const double *n)
 {
-    const sph_buffer *b = &sim->buf[sim->cur];
-    const uint32_t most = sim->cfg.edge == SPH_EDGE_NATURAL ? SPH_EDGE_LINE : 1;
     if (sim->edge_mark[i].claimed == axis + 1) /* it is of another line */
         return true;
     if (sim->edge_from[axis + 1] >= sim->cfg.max_particles)
         return false;
     sph_edge_line *l = &sim->edge_line[sim->edge_from[axis + 1]++];
     l->count = 0;
-    for (uint32_t j = i; j != NOBODY && l->count < most;) {
+    for (uint32_t j = i; j != NOBODY && l->count < SPH_EDGE_LINE;) {
         double x[SPH_DIM];
         nearest_one next = {0.55 * sim->cfg.spacing, NOBODY, axis};
         sim->edge_mark[j].claimed = (uint8_t)(axis + 1);
@@ -299,10 +297,8 @@ static bool add_line(sph_sim *sim, const sph_edges *e, uint32_t axis, uint32_t i
         around(sim, x, look_nearer, &next);
         j = next.j;
     }
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
+    for (uint32_t k = 0; k < SPH_DIM; k++)
         l->normal[k] = (sph_real)n[k];
-        l->velocity[k] = e->as_now ? b->vel[k][i] : (sph_real)e->velocity[k];
-    }
     return true;
 }
 
@@ -321,7 +317,7 @@ static bool add_lines(sph_sim *sim, const sph_edges *e, double (*box)[2], uint32
             if (e->faces & (side ? SPH_HIGH(axis) : SPH_LOW(axis)) &&
                 depth(sim, box, i, axis, side) < sim->cfg.spacing) {
                 n[axis] = side ? 1 : -1;
-                room &= add_line(sim, e, axis, i, n);
+                room &= add_line(sim, axis, i, n);
             }
         if (e->faces && !e->given)
             continue;
@@ -330,7 +326,7 @@ static bool add_lines(sph_sim *sim, const sph_edges *e, double (*box)[2], uint32
             main = sph_abs(n[k]) > sph_abs(n[main]) * 1.000001 ? k : main;
         }
         if (main == axis)
-            room &= add_line(sim, e, axis, i, n);
+            room &= add_line(sim, axis, i, n);
     }
     return room;
 }
@@ -352,11 +348,12 @@ static void keep_stress(sph_sim *sim)
         const sph_edge_line *l = &sim->edge_line[n];
         const sph_set *set = &sim->set[sim->buf[sim->cur].set[0][l->id[0]]];
         const double *weight = sim->edge_weight[l->count - 1];
+        const double rho = set->rho0 * (1 + (double)sim->buf[sim->cur].rho[0][l->id[0]]);
         sph_stress_of(sim, &sim->buf[sim->cur], l->id[0], stress);
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             double push = 0;
             for (uint32_t c = 0; c < SPH_DIM; c++)
-                push += stress[at[k][c]] * (double)l->normal[c] / (set->rho0 * sim->cfg.spacing);
+                push += stress[at[k][c]] * (double)l->normal[c] / (rho * sim->cfg.spacing);
             for (uint32_t m = 0; m < l->count; m++)
                 sim->edge_mark[l->id[m]].push[k] += (sph_real)(weight[m] * push);
         }
@@ -406,6 +403,8 @@ sph_status sph_find_edges(sph_sim *sim, const sph_edges *edges)
         sph_edge_mark *m = &sim->edge_mark[i], was = *m;
         *m = (sph_edge_mark){.level = e->given ? was.level : 0};
         memcpy(m->normal, was.normal, sizeof m->normal);
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            m->velocity[k] = e->as_now ? sim->buf[sim->cur].vel[k][i] : (sph_real)e->velocity[k];
     }
     list_cells(sim);
     box_of(sim, box);
@@ -417,10 +416,15 @@ sph_status sph_find_edges(sph_sim *sim, const sph_edges *edges)
     face_source(sim, e);
     weigh_lines(sim);
     for (uint32_t k = 0; k < SPH_DIM; k++)
-        room &= sph_replaces(&sim->cfg) ? (sim->edge_from[k + 1] = 0, true) : add_lines(sim, e, box, k);
+        room &= add_lines(sim, e, box, k);
     if (!room)
         return sph_setup_bad(sim, "max_particles", "room for the lines of edges", sim->cfg.max_particles);
     keep_stress(sim);
+    /* what P, M, H leave free is held, too; the viscous traction is on the outermost alone */
+    for (uint32_t n = 0; n < sim->edge_from[SPH_DIM] && sim->cfg.edge == SPH_EDGE_VISCOUS; n++)
+        sim->edge_line[n].count = 1;
+    for (uint32_t k = 0; k < SPH_DIM && sph_replaces(&sim->cfg); k++)
+        sim->edge_from[k + 1] = 0;
     uint64_t h = sph_mix(sim->setup_hash, (uint64_t)e->faces | (uint64_t)e->given << 8 | (uint64_t)e->as_now << 9);
     h = sph_mix(h, sim->edge_from[SPH_DIM]);
     for (uint32_t k = 0; k < SPH_DIM; k++)

@@ -514,8 +514,8 @@ sph_status sph_get_flaws(const sph_sim *sim, uint32_t id, uint32_t *count, float
 typedef struct sph_edges {
     uint32_t faces;
     bool given;
-    double velocity[SPH_DIM]; /* m/s, NATURAL, VISCOUS: of what lies beyond */
-    bool as_now;              /* instead of it, the velocity that the edge has now */
+    double velocity[SPH_DIM]; /* m/s, NATURAL, VISCOUS, matched layers: of what lies beyond */
+    bool as_now;              /* instead of it, the velocities of now */
     double source[SPH_DIM];   /* m, H: where waves come from */
 } sph_edges;
 #define sph_find_edges SPH_NAME(find_edges)
