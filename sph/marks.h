@@ -8,12 +8,12 @@
 #include "sweep.h"
 #include "tensor.h"
 
-/* speeds of P and S waves in a set of solid, m/s: c_p^2 = c0^2 + 4 mu/(3 rho0), c_s^2 = mu/rho0 */
+/* speeds of P and S waves in a set of solid, m/s: c_p^2 = c^2 + 4 mu/(3 rho0), c_s^2 = mu/rho0 (c: TAIT_GRAY sqrt 7 c0) */
 SPH_INLINE void sph_edge_speeds(const sph_sim *sim, const sph_set *s, double *cp, double *cs)
 {
     const double cs2 = sph_material_of(sim, s)->shear / s->rho0;
     *cs = __builtin_sqrt(cs2);
-    *cp = __builtin_sqrt(s->c0 * s->c0 + cs2 * 4 / 3);
+    *cp = __builtin_sqrt(s->c0 * s->c0 * (SPH_IS(s->eos, TAIT_GRAY) ? 7 : 1) + cs2 * 4 / 3);
 }
 /* alpha of the matched layer, 1/s */
 SPH_INLINE double sph_layer_shift(const sph_sim *sim, const sph_set *s)

@@ -3,10 +3,11 @@
    section 1.1.4; his closed forms: eqs 2.46-2.49). A strip, periodic along y, one wavelength of the trace 2 pi/k_y high,
    with the edge at its high end in x and the same at its low end. At the start it has the velocities of a packet of
    waves of one kind (P or S), a Gaussian in k_x; half of it goes either way.
-   The history gives what goes to the left (k_x < 0) in the whole strip before the edge, P and S apart by the projection
-   of each Fourier component on its wave vector, as shares of the amplitude that went to the right: over kinds that
-   travel at c cos(angle) each an amplitude is the root of (energy of the packet's length)/(c cos). At angle 0 the strip
-   is longer, so that what went left at first is not seen. */
+   What starts goes along (k_x, k_y) and against it; what came back from either edge has the other sign of k_x k_y. So the
+   history gives the Fourier components of v with k_x < 0 at +k_y, P and S apart by their projection on the wave vector,
+   as shares of the amplitude that was sent, the root mean square of both edges. Packets of a kind that travels at
+   c cos(angle) along x are long in proportion: amplitude^2 is energy/(c cos). At angle 0, where there is no such sign,
+   the strip is longer, so that only the right edge's wave is in the window. */
 #include "edged.h"
 #if SPH_DIM == 2
 
@@ -176,7 +177,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     sph_get_totals(sim, &o);
     row[0] = sph_time(sim);
     /* Fourier sums are over steps of their own: n - first and n columns */
-    const double scale = (double)(n) / (n - first);
+    const double scale = (double)(n) / (n - first) * (p[ANGLE] > 0 ? 2 : 1); /* two edges */
     row[1] = cos_p > 0 ? __builtin_sqrt(back[0] / (scale * whole) * own / (cp * __builtin_sqrt(cos_p))) : 0;
     row[2] = __builtin_sqrt(back[1] / (scale * whole) * own / (cs * __builtin_sqrt(cos_s > 0 ? cos_s : 1)));
     row[3] = o.kinetic;

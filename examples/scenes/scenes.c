@@ -4,7 +4,7 @@
 
 /* the one table of scenes: a line here and a file of that name */
 #if SPH_DIM == 1
-#define SCENE_LIST(X) X(hydrostatic)
+#define SCENE_LIST(X) X(hydrostatic) X(bar)
 #elif SPH_DIM == 2
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break)                                                                                            \
@@ -28,6 +28,8 @@
     X(block)                                                                                                \
     X(caldera)                                                                                              \
     X(plane_wave)                                                                                           \
+    X(collapsing_square)                                                                                    \
+    X(disc)                                                                                                 \
     X(solitary)
 #else
 #define SCENE_LIST(X)                                                                                       \

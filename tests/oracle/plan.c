@@ -376,6 +376,13 @@ void plan_draw(plan *p, uint64_t seed)
     for (uint32_t k = 0; k < p->solids; k++)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
     draw_tables(p);
+    if (p->cfg.solid != SPH_NO_SOLID && chance(0.25)) { /* what edges take is no power of the books */
+        p->cfg.edge = SPH_EDGE_P + pick(SPH_EDGES - SPH_EDGE_P);
+        p->cfg.edge = SPH_DIM != 2 && p->cfg.edge == SPH_EDGE_M_PRINTED ? SPH_EDGE_M : p->cfg.edge;
+        p->cfg.integrator = SPH_KICK_DRIFT_KICK;
+        p->cfg.books = false;
+        p->steps = (uint32_t)o_min(p->steps, 5); /* they amplify what they are given */
+    }
 }
 
 void plan_print(const plan *p)

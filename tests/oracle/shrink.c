@@ -78,6 +78,7 @@ static bool fewer_choices(plan *p, const char *name, difference *d)
     TRY(next.cfg.kernel = SPH_WENDLAND_C2)
     TRY(next.cfg.shepard_every = 0)
     TRY(next.cfg.shifting = 0)
+    TRY(next.cfg.edge = SPH_NO_EDGE)
     TRY(next.wall_d = 0)
     for (int k = 0; k < SPH_DIM; k++) {
         TRY(next.cfg.gravity[k] = 0)
