@@ -9,17 +9,17 @@
    as printed: M with (c_p - c_s) [(Lt.n) n - (Lt.t) t] added, t = (n_y, -n_x); H with c_p cos a, c_s cos a.
 
    Natural, viscous: a traction -rho c_p v.n, -rho c_s v.t that answers the velocity at the edge (2.75; Lysmer &
-   Kuhlemeyer 1969). Natural: on lines of particles that go in from the edge. A uniform stress sigma pushes particle k of
-   a line that ends at a free edge by -A_k sigma n/(rho dx), the sum of A being 1. So the edge's velocity that does the
-   same work is s = sum A_k v_k, and dv_k/dt = -A_k (c/dx) s, of which the exact solution is
+   Kuhlemeyer 1969). Natural: on lines of particles that go in from the edge. A uniform stress sigma pushes particle
+   k of a line that ends at a free edge by -A_k sigma n/(rho dx), the sum of A being 1. So the edge's velocity that
+   does the same work is s = sum A_k v_k, and dv_k/dt = -A_k (c/dx) s, of which the exact solution is
      v_k' = v_k - A_k s (1 - exp(-c dt sum A^2/dx))/sum A^2.
    It only takes energy, at any dt. Viscous: the same of the outermost particle alone. The stress that stood when the
    edges were found is held: A_k sigma_0 n/(rho dx) is added to the acceleration.
 
-   Matched layer (Berenger 1994; complex frequency shift: Roden & Gedney 2000), before the edge, along axes: the equations
-   with d/dx_a divided by s_a = 1 + d_a/(alpha + i w), d_a = 3 c_p ln(1/R)/(2 width) (1 - depth/width)^2, alpha a small
-   shift without which it would creep. Multiplied by the product of all s the momentum equation has ordinary
-   derivatives of a stress whose column l is multiplied by the other axes' s:
+   Matched layer (Berenger 1994; complex frequency shift: Roden & Gedney 2000), before the edge, along axes: the
+   equations with d/dx_a divided by s_a = 1 + d_a/(alpha + i w), d_a = 3 c_p ln(1/R)/(2 width) (1 - depth/width)^2,
+   alpha a small shift without which it would creep. Multiplied by the product of all s the momentum equation has
+   ordinary derivatives of a stress whose column l is multiplied by the other axes' s:
      L_ka - psi_ka for L_ka:    dpsi/dt = d_a L_ka - (alpha + d_a) psi
      sigma_kl + e_kl:           e_kl = D_l r_kl + P_l q_kl;  dr/dt = sigma - sigma_0 - alpha r;  dq/dt = r - alpha q
                                 (D_l: sum of d but d_l; P_l, 3-D: the product of those)
@@ -365,7 +365,10 @@ static double let_out(const sph_sim *sim, const sph_edge_line *l, const uint32_t
     return set->mass * lost;
 }
 
-static uint32_t lines_along(const sph_sim *sim, uint32_t axis) { return sim->edge_from[axis + 1] - sim->edge_from[axis]; }
+static uint32_t lines_along(const sph_sim *sim, uint32_t axis)
+{
+    return sim->edge_from[axis + 1] - sim->edge_from[axis];
+}
 static uint32_t line_chunks(const sph_sim *sim, uint32_t axis)
 {
     return (lines_along(sim, axis) + SPH_LOCAL_CHUNK - 1) / SPH_LOCAL_CHUNK;

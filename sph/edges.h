@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* edges.h: what edges that let elastic waves out (edges.c, outline.c) bring to the lists: their options (options.h), the
-   check of a configuration, the passes that a step of kick-drift-kick ends with. */
+/* edges.h: what edges that let elastic waves out (edges.c, outline.c) bring to the lists: their options (options.h),
+   the check of a configuration, the passes that a step of kick-drift-kick ends with. */
 #ifndef SPH_EDGES_H
 #define SPH_EDGES_H
 
@@ -9,7 +9,7 @@
     O(A, edge, CHOICE, SPH_NO_EDGE, 0, SPH_EDGES, SPH_EDGES_IN, "one of SPH_NO_EDGE .. SPH_EDGE_H_PRINTED", FIXED,    \
       "-", "edge that waves leave through: none natural viscous p m m_printed h h_printed")                           \
     O(A, edge_layers, WHOLE, 0, 0, 64, SPH_HAS_EDGES, "0 .. 64", FIXED, "-",                                          \
-      "layers of particles in which P, M, H hold; 0: floor(support/spacing) + 1")                                     \
+      "layers of particles in which P, M, H hold; 0: as many as the kernel reaches, + 1")                             \
     O(A, edge_width, REAL, 0, 0, SPH_HUGE, SPH_HAS_EDGES, ">= 0, with SPH_EDGE_NATURAL or SPH_EDGE_VISCOUS", FIXED,   \
       "m", "thickness of the matched layer before the edge; 0: none")                                                 \
     O(A, edge_reflection, POSITIVE, 3e-3, 0, 0.5, true, "> 0 and <= 0.5", FIXED, "-",                                 \

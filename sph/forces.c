@@ -676,9 +676,14 @@ static sph_real finish_rates(const sph_sim *sim, const sph_thread *t, uint32_t h
     if (f->rate_by_density)
         d *= t->home.rho[h];
     if (sph_has_solids(&sim->cfg)) {
-        sph_real raw[SPH_NL];
+        const uint32_t i = t->home_at[h];
+        const bool solid = sph_is_solid(set);
+        sph_real raw[SPH_NL], l[SPH_DIM][SPH_DIM];
         raw_gradient(sim, t, h, raw);
-        d += sph_stress_rates(sim, set, t->home_at[h], raw, t->home.rho[h]) * t->home.rho[h] * set->inv_rho0_r;
+        sph_velocity_gradient(sim, i, raw, t->home.rho[h], sph_corrects(&sim->cfg) && solid, l);
+        if (SPH_HAS_EDGES && solid && sph_is_matched(&sim->cfg))
+            sph_match_gradient(sim, set, i, l);
+        d += sph_stress_rates(sim, set, i, (const sph_real(*)[SPH_DIM])l) * t->home.rho[h] * set->inv_rho0_r;
     }
     return f->continuity ? d : 0;
 }

@@ -269,7 +269,8 @@ typedef const sph_pass *const list[];
 #define WEIGHTS MODULE(SPH_HAS_QUADRATURE, sph_pass_cover), MODULE(SPH_HAS_QUADRATURE, sph_pass_quadrature)
 static list first_forces = {&pass_begin, SORT, WEIGHTS, DENSITIES, LAYER, FORCES, &pass_prime};
 static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, END(pass_correct)};
-static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, LAYER, FORCES, END(pass_kick), EDGES};
+static list kick_drift_kick = {&pass_begin, SORT,   FORCES,         &pass_density, DENSITIES,
+                               LAYER,       FORCES, END(pass_kick), EDGES};
 static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),

@@ -8,7 +8,8 @@
 #include "sweep.h"
 #include "tensor.h"
 
-/* speeds of P and S waves in a set of solid, m/s: c_p^2 = c^2 + 4 mu/(3 rho0), c_s^2 = mu/rho0 (c: TAIT_GRAY sqrt 7 c0) */
+/* speeds of P and S waves in a set of solid, m/s: c_p^2 = c^2 + 4 mu/(3 rho0), c_s^2 = mu/rho0; c: c0, of TAIT_GRAY
+   sqrt 7 c0 */
 SPH_INLINE void sph_edge_speeds(const sph_sim *sim, const sph_set *s, double *cp, double *cs)
 {
     const double cs2 = sph_material_of(sim, s)->shear / s->rho0;

@@ -4,8 +4,9 @@
    layer. What becomes of them: edges.c.
 
    Layers: e_i = sum V_j grad W_ij over solids of one body that are in no layer yet, images behind the domain's faces
-   included. Round by round those with |e| > C max |e| of the first round are the next layer, n = -e/|e|. (2.51 prints no
-   V; the exclusion 2.53 keeps in truth what it says it excludes.) At most floor(support/dx) + 1 rounds, or edge_layers.
+   included. Round by round those with |e| > C max |e| of the first round are the next layer, n = -e/|e|. (2.51 prints
+   no V; the exclusion 2.53 keeps in truth what it says it excludes.) At most floor(support/dx) + 1 rounds, or
+   edge_layers.
    C = 0.75: an edge of a half-space is shown with 1, a corner of a square with 0.8 to 0.9, the second layer with 0.5 or
    less; 3-D: 0.6, because a corner of a cube is shown with about 0.65.
 

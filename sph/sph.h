@@ -38,8 +38,8 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 6u /* 1: without solids; 2: without sponges; 3: before `rise`, with fewer books; 4: before `lag`; 5: before the
-                             modules of version 6 */
+#define SPH_VERSION 6u /* 1: without solids; 2: without sponges; 3: before `rise`, with fewer books; 4: before `lag`;
+                          5: before edges */
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 

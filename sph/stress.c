@@ -12,7 +12,6 @@ SPH_OBJECT(stress)
 
 #if SPH_WITH_SOLID
 #include "eos_lanes.h"
-#include "marks.h"
 #include "quadrature.h"
 
 /* ---- columns ---- */
@@ -210,18 +209,14 @@ void sph_velocity_gradient(const sph_sim *sim, uint32_t i, const sph_real *raw, 
         }
 }
 
-sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho)
+sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real (*l)[SPH_DIM])
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    const bool solid = sph_is_solid(set);
-    sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM], trace = 0;
-    sph_velocity_gradient(sim, i, raw, rho, sph_corrects(&sim->cfg) && solid, l);
-    if (SPH_HAS_EDGES && solid && sim->layer[0])
-        sph_match_gradient(sim, set, i, l);
-    if (solid) {
+    sph_real s[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM], trace = 0;
+    if (sph_is_solid(set)) {
         const sph_real mu = sph_material_of(sim, set)->shear_r;
         tensor_of(b, i, s);
-        jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, mu, rate);
+        jaumann(l, (const sph_real(*)[SPH_DIM])s, mu, rate);
         for (uint32_t k = 0; k < SPH_NS; k++)
             b->dstress[k][i] = rate[kept_at[k][0]][kept_at[k][1]];
     }

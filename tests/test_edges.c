@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* test_edges.c: edges that let elastic waves out: layers and normals of blocks, discs, holes, disorder, corners, images;
-   the traction of a line against its exact solution; P, M, H on linear velocities; that edges only take energy, hold
-   what stood, and are of second order; the book; refusals; restarts, slices, threads, failures. What they reflect:
-   tests/validate_edges.py. */
+/* test_edges.c: edges that let elastic waves out: layers and normals of blocks, discs, holes, disorder, corners,
+   images; the traction of a line against its exact solution; P, M, H on linear velocities; that edges only take
+   energy, hold what stood, and are of second order; the book; refusals; restarts, slices, threads, failures. What they
+   reflect: tests/validate_edges.py. */
 #include "testing.h"
 
 #define DX 0.1

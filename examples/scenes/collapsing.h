@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* collapsing.h: what collapsing_square and disc share: a square of 1 cm, in an infinite medium as far as its edges tell,
-   whose particles run towards its middle with v0, all of them or those within a radius; turned by pi/8 if skewed
+/* collapsing.h: what collapsing_square and disc share: a square of 1 cm, in an infinite medium as far as its edges
+   tell, whose particles run towards its middle with v0, all of them or those within a radius; turned by pi/8 if skewed
    (Powell 2012 sections 3.2.1, 3.2.2, eqs 2.73, 2.74, 2.76). A margin beyond the square moves as the rest. */
 #ifndef EXAMPLES_COLLAPSING_H
 #define EXAMPLES_COLLAPSING_H
@@ -10,14 +10,15 @@
 
 enum { N = SOLID_COMMON, SPEED, RADIUS, SKEW, MARGIN, EDGED, DURATION = EDGED + EDGED_PARAMS, PARAMS };
 
-#define COLLAPSING_PARAMS(radius_, edge_, layer_, margin_, duration_)                                                  \
-    SOLID_PARAMS(SPH_CUBIC, 1.3, 0, 0, SPH_KICK_DRIFT_KICK, 0.3, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, EDGED_MU, 0),     \
+#define COLLAPSING_PARAMS(radius_, edge_, layer_, margin_, duration_)                                                 \
+    SOLID_PARAMS(SPH_CUBIC, 1.3, 0, 0, SPH_KICK_DRIFT_KICK, 0.3, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, EDGED_MU, 0),    \
         {"n", "-", "particles along the square", 50, 10, 1000, SCENE_WHOLE},                                          \
         {"speed", "cm/us", "v0", 0.01, 1e-9, 0.1, SCENE_NUMBER},                                                      \
         {"radius", "cm", "of what moves; 0: all", radius_, 0, 0.5, SCENE_NUMBER},                                     \
         {"skew", "degree", "angle by which velocities are turned; 22.5 is Powell's", 0, 0, 90, SCENE_NUMBER},         \
         {"margin", "dx", "of the same beyond the square on every side", margin_, 0, 1000, SCENE_WHOLE},               \
-        EDGED_PARAM_ROWS(edge_, layer_, 3e-3), {"duration", "us", "length of the run", duration_, 0, 1000, SCENE_NUMBER}
+        EDGED_PARAM_ROWS(edge_, layer_, 3e-3),                                                                        \
+        {"duration", "us", "length of the run", duration_, 0, 1000, SCENE_NUMBER}
 
 static double collapsing_dx(const double *p) { return 1 / p[N]; }
 

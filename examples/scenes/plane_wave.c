@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* plane_wave.c: how much of a plane elastic wave comes back from an edge, by the angle at which it meets it (Powell 2012
-   section 1.1.4; his closed forms: eqs 2.46-2.49). A strip, periodic along y, one wavelength of the trace 2 pi/k_y high,
-   with the edge at its high end in x and the same at its low end. At the start it has the velocities of a packet of
-   waves of one kind (P or S), a Gaussian in k_x; half of it goes either way.
-   What starts goes along (k_x, k_y) and against it; what came back from either edge has the other sign of k_x k_y. So the
-   history gives the Fourier components of v with k_x < 0 at +k_y, P and S apart by their projection on the wave vector,
-   as shares of the amplitude that was sent, the root mean square of both edges. Packets of a kind that travels at
-   c cos(angle) along x are long in proportion: amplitude^2 is energy/(c cos). At angle 0, where there is no such sign,
-   the strip is longer, so that only the right edge's wave is in the window. */
+/* plane_wave.c: how much of a plane elastic wave comes back from an edge, by the angle at which it meets it (Powell
+   2012 section 1.1.4; his closed forms: eqs 2.46-2.49). A strip, periodic along y, one wavelength of the trace 2 pi/k_y
+   high, with the edge at its high end in x and the same at its low end. At the start it has the velocities of a packet
+   of waves of one kind (P or S), a Gaussian in k_x; half of it goes either way.
+   What starts goes along (k_x, k_y) and against it; what came back from either edge has the other sign of k_x k_y. So
+   the history gives the Fourier components of v with k_x < 0 at +k_y, P and S apart by their projection on the wave
+   vector, as shares of the amplitude that was sent, the root mean square of both edges. Packets of a kind that travels
+   at c cos(angle) along x are long in proportion: amplitude^2 is energy/(c cos). At angle 0, where there is no such
+   sign, the strip is longer, so that only the right edge's wave is in the window. */
 #include "edged.h"
 #if SPH_DIM == 2
 
@@ -129,7 +129,7 @@ static void add_columns(const sph_sim *sim, const wave *w, columns_of_strip *s, 
 static void shares(const columns_of_strip *s, const wave *w, double sign, uint32_t first, uint32_t n, double *along,
                    double *across)
 {
-    const double step = SCENE_PI / (n - first), most = 4 * 2 * SCENE_PI / 16 * (16 * w->kx / (2 * SCENE_PI * w->cosine));
+    const double step = SCENE_PI / (n - first), most = 4 * w->kx / w->cosine;
     *along = *across = 0;
     for (double k = step; k < most; k += step) {
         const double kx = sign * k, size = __builtin_sqrt(kx * kx + w->ky * w->ky);
