@@ -9,6 +9,8 @@ static const scene_param param[PARAMS] = {COLLAPSING_PARAMS(0, SPH_EDGE_NATURAL,
 
 #define scene_collapsing_square SPH_NAME(scene_collapsing_square)
 extern const scene scene_collapsing_square;
-const scene scene_collapsing_square = {"collapsing_square", "a square collapses in an infinite medium (Powell 2012, 3.2.1)",
-                        param, PARAMS, configure, build, end, sizeof column / sizeof *column, column, history, scene_gray};
+const scene scene_collapsing_square = {"collapsing_square",
+                                       "a square collapses in an infinite medium (Powell 2012, 3.2.1)",
+                                       param, PARAMS, configure, build, end, sizeof column / sizeof *column, column,
+                                       history, scene_gray};
 #endif

@@ -8,6 +8,6 @@ static const scene_param param[PARAMS] = {COLLAPSING_PARAMS(0.25, SPH_EDGE_NATUR
 
 #define scene_disc SPH_NAME(scene_disc)
 extern const scene scene_disc;
-const scene scene_disc = {"disc", "a disc collapses in an infinite medium (Powell 2012, 3.2.2)", param,
-                        PARAMS, configure, build, end, sizeof column / sizeof *column, column, history, scene_gray};
+const scene scene_disc = {"disc", "a disc collapses in an infinite medium (Powell 2012, 3.2.2)", param, PARAMS,
+                          configure, build, end, sizeof column / sizeof *column, column, history, scene_gray};
 #endif
