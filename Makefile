@@ -83,7 +83,10 @@ SCENES := $(wildcard examples/scenes/*.c)
 PROGS  := $(wildcard examples/*.c)
 TOOLS  := $(filter-out tools/build.c,$(wildcard tools/*.c))
 EXTRA_LISTS := $(wildcard tests/extra_*.h)
-TESTS  := $(filter-out test_lists test_restarts,$(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))))
+# the longest first, so that no processor waits for one at the end
+LONG_TESTS := test_order test_bits test_faults test_atlas test_oracle test_walls test_solid_forces test_materials
+TESTS  := $(LONG_TESTS) $(filter-out $(LONG_TESTS) test_lists test_restarts,\
+    $(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))))
 
 LIBS := $(BUILDS:%=$(BUILD)/libsph%.a)
 port_obj  := $(PORT:%.c=$(BUILD)/obj/%.o)
@@ -157,7 +160,8 @@ PREFIX ?= /usr/local
 DESTDIR ?=
 INSTALL_BUILDS ?= $(BUILDS)
 INSTALL_TOOL ?= $(TOOL)
-INSTALLED_HEADERS := sph/sph.h sph/modules.h sph/knobs.h sph/name.h sph/options.h sph/sponge.h sph/shifting.h sph/edges.h
+INSTALLED_HEADERS := sph/sph.h sph/modules.h sph/knobs.h sph/name.h sph/options.h \
+    $(shell sed -n 's/^.include "\(.*\)"/sph\/\1/p' sph/options.h)
 version := $(shell sed -n 's/^.define SPH_VERSION \([0-9]*\)u.*/\1/p' sph/sph.h)
 install: $(INSTALL_BUILDS:%=$(BUILD)/libsph%.a) $(INSTALL_TOOL)
 	$(Q)mkdir -p "$(DESTDIR)$(PREFIX)/lib/pkgconfig" "$(DESTDIR)$(PREFIX)/include/sph"
@@ -226,12 +230,15 @@ builds_test_damage  := 2f 2d 3f 3d
 builds_test_options := 1d 2f 3f
 builds_test_arena   := $(BUILDS)
 builds_test_sponge  := 1f 1d 2f 2d 3f
+builds_test_flow    := $(BUILDS)
+builds_test_plates  := 1d 2f 2d 3f
 builds_test_quadrature := 1d 2f 2d 3f
 builds_test_grid    := $(BUILDS)
 builds_test_oracle  := $(BUILDS)
 builds_test_inspect := 1f 2f 2d 3f
 builds_test_probes  := $(BUILDS)
 builds_test_shifting := $(BUILDS)
+builds_test_damper  := 1d 2f 2d 3f
 builds_test_format  := 1d 2f 3f
 builds_test_bounds  := 1d 2f 3f
 builds_test_usage   := 1d 2f 3f
@@ -425,7 +432,7 @@ asan_bins := $(foreach t,$(TESTS),$(foreach b,$(or $(filter $(ASAN_BUILDS),$(cal
 asan:
 	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
 	$(Q)$(call sanitized,$(asan_bins),asan)
-	$(Q)ASAN_OPTIONS=detect_leaks=0 sh tests/run.sh $(BUILD)/asan $(asan_bins)
+	$(Q)ASAN_OPTIONS=detect_leaks=0 ORDER=9 sh tests/run.sh $(BUILD)/asan $(asan_bins)
 tsan:
 	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
 	$(Q)$(call sanitized,$(TSAN_TESTS),tsan)

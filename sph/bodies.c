@@ -25,12 +25,12 @@ static void find_kin(sph_sim *sim, sph_set *s)
     s->kin = 0;
     while (&sim->set[s->kin] < s) {
         const sph_set *o = &sim->set[s->kin];
-        if (sph_is_body(o) && o->role == s->role && o->eos == s->eos && same(o->rho0, s->rho0) && same(o->c0, s->c0))
+        if (sph_is_matter(o) && o->role == s->role && o->eos == s->eos && same(o->rho0, s->rho0) && same(o->c0, s->c0))
             break;
         s->kin++;
     }
     for (const sph_set *o = sim->set; o < s; o++)
-        sim->mixed |= sph_is_body(o) && o->kin != s->kin;
+        sim->mixed |= sph_is_matter(o) && o->kin != s->kin;
     sim->own_sound |= !same(s->c0, c->sound_speed);
     sim->mixed |= sim->own_sound || !same(s->rho0, c->rho0) || SPH_IS(s->eos, TAIT_GRAY) != SPH_IS(c->eos, TAIT_GRAY);
 }

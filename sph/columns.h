@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* columns.h: the list of column sets: what modules' candidates bring into a tile beside the columns of every tile (x,
    v, m, rho, press, 1/rho; sweep.h). Scratch holds only the sets that the scene wants.
-     name, 1 if of ghosts (else of bodies and homes), rows, knob, condition on the configuration `c`
+     name, 1 if of ghosts (else of matter and homes), rows, knob, condition on the configuration `c`
    The loader is sph_load_<name>; columns.c makes the table. */
 #ifndef SPH_COLUMNS_H
 #define SPH_COLUMNS_H

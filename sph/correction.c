@@ -55,7 +55,7 @@ SPH_INLINE void correction_homes(const sph_sim *sim, sph_thread *t, uint32_t hom
                                  bool total, bool wall)
 {
     const uint32_t sums = SPH_SUM_MASK(SUM_M, SPH_NL) | (total ? 1u << SUM_FAR : 0);
-    const sph_tile *const tile = wall ? &t->ghosts : &t->bodies;
+    const sph_tile *const tile = wall ? &t->ghosts : &t->matter;
     for (uint32_t h = 0; h < homes; h++) {
         correction own = {weak, total, wall, {{v_set(0)}, v_set(0)}, NULL, v_set(sim->fac.reach)};
         if (total) {
@@ -74,7 +74,7 @@ static __attribute__((noinline)) void correction_any(const sph_sim *sim, sph_thr
                      SPH_HAS_LAYERED_WALLS && wall);
 }
 
-/* the same text with the choices as constants: kernel, whether total-Lagrangian; bodies, standard scheme */
+/* the same text with the choices as constants: kernel, whether total-Lagrangian; matter, standard scheme */
 #define SPH_FAST_LIST(X)                                                                                           \
     X(cubic, SPH_CUBIC, false)                                                                                     \
     X(cubic_t, SPH_CUBIC, SPH_HAS_TOTAL)                                                                           \
@@ -140,7 +140,7 @@ static void correction_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const bool total = sph_is_total(&sim->cfg);
     const sph_sweep w = {solid_home,
-                         SPH_BODIES | 1u << SPH_ROLE_GHOST,
+                         SPH_MATTER | 1u << SPH_ROLE_GHOST,
                          SPH_SUM_MASK(SUM_M, SPH_NL) | (total ? 1u << SUM_FAR : 0),
                          sph_weak_scheme(sim->cfg.scheme),
                          total ? 1u << SPH_COLUMN_reference : 0,

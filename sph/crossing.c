@@ -36,7 +36,7 @@ static double depth_inside(const sph_set *s, const double *x)
 /* whether particles are looked for behind a set's faces */
 static bool is_region(const sph_sim *sim, const sph_set *s)
 {
-    return !sph_is_body(s) && !s->corner && !sph_wall_removed(sim, s);
+    return !sph_is_matter(s) && !s->corner && !sph_wall_removed(sim, s);
 }
 
 uint32_t sph_inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *depth)
@@ -146,7 +146,7 @@ void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t, double *books)
         if (is_region(sim, &sim->set[w]))
             mark_near(sim, &sim->set[w], s, t->near);
     for (uint32_t i = s.first; i < s.last; i++)
-        if (t->near[i - s.first] && b->set[0][i] != SPH_DEAD && sph_is_body(&sim->set[b->set[0][i]]))
+        if (t->near[i - s.first] && b->set[0][i] != SPH_DEAD && sph_is_matter(&sim->set[b->set[0][i]]))
             cross_one(sim, i, t, books);
 }
 #endif

@@ -34,7 +34,7 @@ static void summation_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 }
 static void summation_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    static const sph_sweep w = {sph_body_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(SUM_MW, 2), true, 0,
+    static const sph_sweep w = {sph_matter_home, SPH_MATTER | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(SUM_MW, 2), true, 0,
                                 density_tile, summation_finish, 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
@@ -58,9 +58,9 @@ static void shepard_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint
     (void)role;
     for (uint32_t h = 0; h < homes; h++) {
         const sph_set *set = &sim->set[t->home_set[h]];
-        const sph_gather g = {t, sph_near_of(t, &t->bodies), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &set->rho0_r};
+        const sph_gather g = {t, sph_near_of(t, &t->matter), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &set->rho0_r};
         if (!SPH_WITH_SEVERAL_FLUIDS || !sim->mixed || t->of->kin == set->kin)
-            sph_sum_home(sim, t, &t->bodies, h, SPH_SUM_MASK(SUM_MW, 2), shepard_pair, &g);
+            sph_sum_home(sim, t, &t->matter, h, SPH_SUM_MASK(SUM_MW, 2), shepard_pair, &g);
     }
 }
 static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -71,7 +71,7 @@ static void shepard_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 }
 static void shepard_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(SUM_MW, 2), true, 0, shepard_tile, shepard_finish,
+    const sph_sweep w = {sph_matter_home, SPH_MATTER, SPH_SUM_MASK(SUM_MW, 2), true, 0, shepard_tile, shepard_finish,
                          SPH_WITH_SEVERAL_FLUIDS && sim->mixed ? SPH_APART_KIN : 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
@@ -94,7 +94,8 @@ static void copy_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const bool books = books_filter(sim);
     double taken = 0;
     for (uint32_t i = s.first; i < s.last; i++)
-        if (b->set[0][i] != SPH_DEAD && sph_is_body(&sim->set[b->set[0][i]])) {
+        if (b->set[0][i] != SPH_DEAD && sph_is_matter(&sim->set[b->set[0][i]]) &&
+            !sph_flow_of(sim, &sim->set[b->set[0][i]])) {
             taken += books ? sph_energy_of(sim, b, i).internal : 0;
             b->rho[0][i] = sim->tmp[i];
             taken -= books ? sph_energy_of(sim, b, i).internal : 0;

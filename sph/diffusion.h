@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* diffusion.h: density diffusion (Molteni & Colagrossi 2009; Fourtakas et al. 2019), between bodies only:
+/* diffusion.h: density diffusion (Molteni & Colagrossi 2009; Fourtakas et al. 2019), in matter only:
      drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + eta)
    with eta 0.01 h^2 and rho_H the difference that gravity makes between the two places (HYDROSTATIC), or 0. An image
-   has the density of its original: rho_H is that of the original's place (forces.c, factors_of). Only within one
+   has the density of its original: rho_H is that of the original's place (factors.c, sph_pair_factors). Only within one
    material. rho_j of the volume m_j/rho_j is at least rho0/2: among spray, thinner without bound, volumes would sum to
    more than the step stands (factors.c), and densities go below 0. Standard schemes have that in the candidates'
    columns (tiles.c), weak ones, whose other terms want 1/rho_j, here. */
@@ -24,8 +24,8 @@ SPH_INLINE void sph_diffusion(const sph_choice *c, const sph_factors *f, const s
         if (SPH_HAS_APART && c->apart)
             dr = dr - f->hydro_offset;
     }
-    const vreal most = v_set(f->most_inv_rho), own = p->inv_rho;
-    const vreal inv_rho = sph_weak_scheme(c->scheme) ? v_select(v_less(most, own), most, own) : own;
+    const vreal least = v_set(f->least_rho), own = p->inv_rho; /* of densities below 0 too */
+    const vreal inv_rho = sph_weak_scheme(c->scheme) ? v_select(v_less(p->rho, least), 1 / least, own) : own;
     /* (rho_j - rho_i) x_ji . grad W = (rho_i - rho_j) r^2 g; the sum rho_i + rho_j in inv is taken out again */
     p->diff = dr * (p->r2 * p->inv * (h->rho + p->rho)) * p->mg * inv_rho * f->diff;
     s[SUM_DRHO] = s[SUM_DRHO] + (sph_rate_by_density(c->scheme, c->gradient) ? p->diff * h->inv_rho : p->diff);

@@ -26,7 +26,7 @@ typedef sph_int sph_pos;
 /* The one list of state fields:
      name, element type, components, unit, condition on the configuration `c`, and how it goes through a step:
        SPH_PLACED     the sort itself moves and advances it (what a cell is found by, and what the sweep reads at once)
-       SPH_SUMMED     the force sweep writes it for every body; walls get zeros
+       SPH_SUMMED     the force sweep writes it for all matter; walls get zeros
        SPH_RATE       zero after the sort, then whatever the passes of the stage write
        SPH_CARRIED    goes with its particle unchanged, until a pass of its own changes it
        SPH_DISPLACED  carried, and gains what the particle moved (quanta; component k is along axis k)
@@ -120,8 +120,5 @@ SPH_INLINE void *sph_array(const sph_buffer *b, uint32_t at)
     memcpy(&p, (const unsigned char *)b + at * sizeof p, sizeof p);
     return p;
 }
-
-/* what positions drift with beside vel, along axis k; null where the scene has no such field */
-SPH_INLINE sph_real *sph_drift(const sph_buffer *b, uint32_t k) { return SPH_WITH_XSPH ? b->xsph[k] : NULL; }
 
 #endif

@@ -12,13 +12,14 @@
    at once, of which each would use a half.
 
    The same text is compiled with the choices as constants (a line of SPH_FAST_FORCES each) and with choices read at
-   run time (two general forms: without solids and with them). Arrays: none but the state's acc, drho, xsph and the
-   powers of the books. Cost: one sweep a force evaluation. */
+   run time (two general forms: without solids and with them). What becomes of the sums is in finish.c. Cost: one sweep
+   a force evaluation. */
 #include "boundary.h"
 #include "continuity.h"
 #include "diffusion.h"
+#include "factors.h"
+#include "finish.h"
 #include "gradient.h"
-#include "marks.h"
 #include "pair_power.h"
 #include "pressure.h"
 #include "reference.h"
@@ -134,7 +135,7 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     sph_shift_sums(c, o->f, &p, s);
 }
 
-SPH_INLINE void pair_bodies(const void *what, uint32_t j, vreal *s) { pair(what, false, j, s); }
+SPH_INLINE void pair_matter(const void *what, uint32_t j, vreal *s) { pair(what, false, j, s); }
 SPH_INLINE void pair_ghosts(const void *what, uint32_t j, vreal *s) { pair(what, true, j, s); }
 SPH_INLINE void pair_either(const void *what, uint32_t j, vreal *s)
 {
@@ -163,7 +164,7 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
                            bool wall)
 {
     const sph_home home = sph_spread_home(&t->home, h);
-    const sph_tile *const tile = wall ? &t->ghosts : &t->bodies;
+    const sph_tile *const tile = wall ? &t->ghosts : &t->matter;
     at_home o = {.c = c, .f = f, .tile = sph_near_of(t, tile), .home = &home};
     if (SPH_HAS_LAYERED_WALLS && wall)
         o.mirror = sph_mirror_of(sim, t);
@@ -200,12 +201,12 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
     else if (wall)
         sph_sum_home(sim, t, tile, h, sums, pair_ghosts, &o);
     else
-        sph_sum_home(sim, t, tile, h, sums, pair_bodies, &o);
+        sph_sum_home(sim, t, tile, h, sums, pair_matter, &o);
 }
 
 /* ---- general forms: every choice read at run time ---- */
 
-/* in small builds one text for bodies and ghosts, else one each */
+/* in small builds one text for matter and ghosts, else one each */
 SPH_INLINE void force_general(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const bool wall = SPH_HAS_LAYERED_WALLS && c->wall;
@@ -348,7 +349,7 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
         static const sph_choice c = {__VA_ARGS__};                                                                 \
         const sph_factors own = sim->fac;                                                                          \
         for (uint32_t h = 0; h < homes; h++)                                                                       \
-            if (sph_is_body(&sim->set[t->home_set[h]]) || !(c.wall || sph_diffusive(c.diffusion)))                 \
+            if (sph_is_matter(&sim->set[t->home_set[h]]) || !(c.wall || sph_diffusive(c.diffusion)))                 \
                 force_home(&c, &own, sim, t, h, c.wall);                                                           \
     }
 #define SPH_FAST_ROW(name, ...) {{__VA_ARGS__}, force_##name},
@@ -439,7 +440,7 @@ static fast_path *fast_path_of(const sph_choice *c)
     return fast_paths[k].run;
 }
 
-/* The choices of a scene, of bodies or of ghosts. Rates ask for no viscosity and keep no books; forces for nothing that
+/* The choices of a scene, of matter or of ghosts. Rates ask for no viscosity and keep no books; forces for nothing that
    makes rates, but for what is on the books. */
 static sph_choice choice_of(const sph_sim *sim, bool wall)
 {
@@ -468,73 +469,27 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .edge = forces && sph_replaces(c)};
 }
 
-/* what the tiles of bodies must be of one kind for (sph_sweep.apart) */
-static uint8_t kept_apart(const sph_sim *sim)
-{
-    const sph_config *c = &sim->cfg;
-    const bool artificial = sph_viscous(c->viscosity) && !SPH_IS(c->viscosity, MORRIS);
-    const bool asks = (sph_diffusive(c->diffusion) && sim->mixed) || (artificial && sim->own_sound);
-    uint8_t apart = SPH_WITH_SEVERAL_FLUIDS && asks ? SPH_APART_KIN : 0;
-    for (uint32_t k = 0; k < SPH_DIM && SPH_HAS_MIRRORS && SPH_IS(c->diffusion, HYDROSTATIC); k++)
-        for (uint32_t side = 0; side < 2; side++) {
-            const uint32_t face = c->face[k][side];
-            const bool mirror = SPH_IS(face, SYMMETRY) || SPH_IS(face, MIRROR_NO_SLIP);
-            apart |= mirror && c->gravity[k] != 0 ? SPH_APART_MIRRORED : 0;
-        }
-    return apart;
-}
-
-/* The constants of the pair formulas between a home and a tile of one kind: viscosity with the mean of both sound
-   speeds (walls: the home's), diffusion with that of the one material that it acts in. Where an image shows what stands
-   in truth at S - x' (home cell's coordinates), the difference that gravity makes is of x_i - (S - x') =
-   -(x_i - x') + 2 x_i - S. */
-#if SPH_HAS_APART
-static const sph_factors *factors_of(const sph_sim *sim, sph_thread *t, uint32_t h, bool ghosts)
-{
-    const sph_config *c = &sim->cfg;
-    sph_factors *const f = &t->factors;
-    const sph_set *i = &sim->set[t->home_set[h]], *j = ghosts ? i : t->of;
-    const double c2 = i->c0 * i->c0 * (SPH_IS(i->eos, TAIT_GRAY) ? 7 : 1);
-    *f = sim->fac;
-    f->most_inv_rho = (sph_real)(2 / i->rho0);
-    f->av_alpha = (sph_real)(c->smoothing_length * c->alpha * (i->c0 + j->c0));
-    if (SPH_HAS_DIFFUSION)
-        f->diff = i->kin == j->kin ? (sph_real)(2 * c->delta * c->smoothing_length * i->c0) : 0;
-    for (uint32_t k = 0; k < SPH_DIM && SPH_IS(c->diffusion, HYDROSTATIC); k++) {
-        const double slope = i->rho0 * c->gravity[k] / c2;
-        const bool turned = !ghosts && t->seen.sign[k] < 0;
-        f->hydro[k] = (sph_real)(turned ? -slope : slope);
-        if (turned)
-            f->hydro_offset += (sph_real)(slope * (2 * (double)t->home.x[k][h] -
-                                                   (double)(t->seen.shift[k] - 2 * t->origin[k]) * sim->grid.quantum));
-    }
-    return f;
-}
-#else
-#define factors_of(sim, t, h, ghosts) (&(sim)->fac)
-#endif
-
-/* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over bodies only; its acceleration is
+/* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over matter only; its acceleration is
    not used. */
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
     sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
     const uint8_t diffusion = c.diffusion;
     const sph_factors *f = &sim->fac;
-    c.apart = SPH_HAS_APART && kept_apart(sim);
+    c.apart = SPH_HAS_APART && sph_asks_apart(sim);
     fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&c);
     /* left over by a fast path */
     const bool ghosts = SPH_WITH_WALL_GHOST && role == SPH_ROLE_FLUID && sph_diffusive(diffusion);
     if (fast)
         fast(sim, t, homes);
     for (uint32_t h = 0; h < homes && (!fast || ghosts); h++) {
-        const bool body = sph_is_body(&sim->set[t->home_set[h]]);
-        if (body ? fast != NULL : role != SPH_ROLE_FLUID)
+        const bool matter = sph_is_matter(&sim->set[t->home_set[h]]);
+        if (matter ? fast != NULL : role != SPH_ROLE_FLUID)
             continue;
         if (SPH_WITH_WALL_GHOST)
-            c.diffusion = body ? diffusion : (uint8_t)SPH_NO_DIFFUSION; /* density does not diffuse into walls */
+            c.diffusion = matter ? diffusion : (uint8_t)SPH_NO_DIFFUSION; /* density does not diffuse into walls */
         if (c.apart && role != SPH_ROLE_FORCE_WALL)
-            f = factors_of(sim, t, h, role == SPH_ROLE_GHOST);
+            f = sph_pair_factors(sim, t, h, role == SPH_ROLE_GHOST);
         if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
             sph_boundary_force(sim, t, h);
         else if (SPH_WITH_BOOKS && !SPH_SMALL && c.loses)
@@ -548,195 +503,13 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
     }
 }
 
-/* ---- what becomes of the sums ---- */
+/* ---- the pass ---- */
 
 static bool is_force_home(const sph_sim *sim, const sph_set *s)
 {
     const bool ghost = s->role == SPH_ROLE_GHOST && s->compressible && s->kind == SPH_WALL_GHOST;
-    return sph_is_body(s) || (ghost && sph_sums_rates(sim));
+    return sph_is_matter(s) || (ghost && sph_sums_rates(sim));
 }
-
-SPH_INLINE sph_real larger(sph_real a, sph_real b) { return a < b ? b : a; }
-
-/* the host's body force on a home; returns its power per unit mass */
-static sph_real add_body_force(const sph_sim *sim, const sph_thread *t, uint32_t h, sph_real *acc)
-{
-    const sph_config *c = &sim->cfg;
-    const sph_buffer *b = &sim->buf[sim->dst];
-    double x[SPH_DIM], v[SPH_DIM], add[SPH_DIM];
-    sph_real power = 0;
-    for (int k = 0; k < SPH_DIM; k++) {
-        x[k] = c->lo[k] + (double)b->pos[k][t->home_at[h]] * sim->grid.quantum;
-        v[k] = (double)t->home.v[k][h];
-        add[k] = 0;
-    }
-    c->body_force(c->body_ctx, sim->moment, x, v, add);
-    for (int k = 0; k < SPH_DIM; k++) {
-        acc[k] += (sph_real)add[k];
-        power += (sph_real)add[k] * t->home.v[k][h];
-    }
-    return power;
-}
-
-/* sum m_j v_ij (x) K g of a home */
-SPH_INLINE void raw_gradient(const sph_sim *sim, const sph_thread *t, uint32_t h, sph_real *raw)
-{
-    for (uint32_t k = 0; k < SPH_NL; k++)
-        raw[k] = v_fold(t->sum[SUM_GRADIENT + k][h]) * sim->fac.slope;
-}
-
-/* powers of a home for the books, per unit mass (POWER_... in internal.h) */
-static void finish_powers(sph_sim *sim, const sph_thread *t, uint32_t h, sph_real body)
-{
-    const sph_factors *f = &sim->fac;
-    const uint32_t i = t->home_at[h];
-    const sph_set *set = &sim->set[t->home_set[h]];
-    const sph_real rho = t->home.rho[h], press = t->home.press[h], moved = t->sum[SUM_BOUNDARY][h][SPH_DIM];
-    const sph_real ratio = sph_weak_scheme(sim->cfg.scheme) ? press / (rho * rho) : press;
-    const sph_real whole = SPH_WITH_SOLID && press < 0 ? sph_whole_of(&sim->buf[sim->dst], i) : 1;
-    const sph_real phi = sph_quadrature_of(&sim->buf[sim->dst], i);
-    sph_real in = moved, lost = 0; /* springs of boundary forces; what XSPH's drift does in gravity */
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        if (SPH_HAS_FORCE_WALLS && sim->has_force_wall)
-            in -= t->sum[SUM_BOUNDARY][h][k] * t->home.v[k][h];
-        if (sph_uses_xsph(&sim->cfg) && !(sph_held(sim, set) >> k & 1))
-            lost += f->gravity[k] * sim->buf[sim->dst].xsph[k][i];
-    }
-    if (SPH_HAS_LAYERED_WALLS)
-        in += v_fold(t->sum[SUM_IN_WALLS][h]) * f->slope;
-    if (f->loses)
-        lost += v_fold(t->sum[SUM_UNBALANCED][h]) * f->slope;
-    if (SPH_WITH_SOLID && sph_is_solid(set)) {
-        sph_real raw[SPH_NL];
-        raw_gradient(sim, t, h, raw);
-        lost -= sph_stress_surplus(sim, set, i, raw, rho);
-    }
-    sim->power[POWER_DISSIPATED][i] = v_fold(t->sum[SUM_VISCOUS][h]) * f->slope;
-    sim->power[POWER_WALL][i] = moved - v_fold(t->sum[SUM_WALL][h]) * f->slope;
-    sim->power[POWER_DIFFUSED][i] = -(v_fold(t->sum[SUM_DIFFUSED][h]) * f->slope * ratio * whole * phi);
-    sim->power[POWER_BODY][i] = body;
-    sim->power[POWER_IN_WALLS][i] = in;
-    sim->power[POWER_IN_BONDS][i] = SPH_WITH_SOLID && f->bonds ? v_fold(t->sum[SUM_IN_BONDS][h]) * f->slope : 0;
-    sim->power[POWER_UNBALANCED][i] = lost;
-}
-
-/* what the scene asked for besides forces: XSPH velocity, boundary forces, the body force, powers for the books */
-static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc)
-{
-    const sph_factors *f = &sim->fac;
-    const sph_config *c = &sim->cfg;
-    const sph_buffer *b = &sim->buf[sim->dst];
-    const uint32_t i = t->home_at[h];
-    sph_real body = 0;
-    for (uint32_t k = 0; sph_uses_xsph(c) && !sph_smooths_strain(c) && k < SPH_DIM; k++)
-        b->xsph[k][i] = v_fold(t->sum[SUM_XSPH + k][h]) * (f->value * (sph_real)(2 * c->xsph));
-    for (uint32_t k = 0; SPH_HAS_FORCE_WALLS && sim->has_force_wall && k < SPH_DIM; k++)
-        acc[k] += t->sum[SUM_BOUNDARY][h][k];
-    if (SPH_WITH_BODY_FORCE && c->body_force)
-        body = add_body_force(sim, t, h, acc);
-    if (sph_keeps_books(c))
-        finish_powers(sim, t, h, body);
-}
-
-/* edges that let waves out */
-static void finish_edges(const sph_sim *sim, const sph_thread *t, uint32_t h, sph_real *acc)
-{
-    const sph_set *set = &sim->set[t->home_set[h]];
-    sph_real raw[SPH_NL], l[SPH_DIM][SPH_DIM] = {{0}}, v[SPH_DIM];
-    for (uint32_t k = 0; k < SPH_DIM; k++)
-        v[k] = t->home.v[k][h];
-    if (sph_replaces(&sim->cfg)) {
-        raw_gradient(sim, t, h, raw);
-        sph_velocity_gradient(sim, t->home_at[h], raw, t->home.rho[h], sph_corrects(&sim->cfg), l);
-    }
-    sph_edge_force(sim, set, t->home_at[h], (const sph_real(*)[SPH_DIM])l, v, acc);
-}
-
-/* along the axes on which a set is held it feels no force; what moves it does work against it (and on its inertia) */
-static void hold(sph_sim *sim, const sph_set *set, uint32_t i, sph_real *acc)
-{
-    const uint32_t held = sph_held(sim, set);
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        if (!(held >> k & 1))
-            continue;
-        if (sph_keeps_books(&sim->cfg))
-            sim->power[POWER_WALL][i] -= acc[k] * (sph_real)sph_wall_velocity(sim, set, k);
-        acc[k] = 0;
-        if (sph_uses_xsph(&sim->cfg))
-            sim->buf[sim->dst].xsph[k][i] = 0;
-    }
-}
-
-/* rate of a home's relative density from its sums; solids' stress rates come with it */
-static sph_real finish_rates(const sph_sim *sim, const sph_thread *t, uint32_t h)
-{
-    const sph_factors *f = &sim->fac;
-    const sph_set *set = &sim->set[t->home_set[h]];
-    sph_real d = v_fold(t->sum[SUM_DRHO][h]) * f->slope * set->inv_rho0_r;
-    if (f->rate_by_density)
-        d *= t->home.rho[h];
-    if (sph_has_solids(&sim->cfg)) {
-        const uint32_t i = t->home_at[h];
-        const bool solid = sph_is_solid(set);
-        sph_real raw[SPH_NL], l[SPH_DIM][SPH_DIM];
-        raw_gradient(sim, t, h, raw);
-        sph_velocity_gradient(sim, i, raw, t->home.rho[h], sph_corrects(&sim->cfg) && solid, l);
-        if (SPH_HAS_EDGES && solid && sph_is_matched(&sim->cfg))
-            sph_match_gradient(sim, set, i, l);
-        d += sph_stress_rates(sim, set, i, (const sph_real(*)[SPH_DIM])l) * t->home.rho[h] * set->inv_rho0_r;
-    }
-    return f->continuity ? d : 0;
-}
-
-/* the acceleration of a home from its sums; returns its square */
-SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
-{
-    const sph_factors *f = &sim->fac;
-    const sph_buffer *b = &sim->buf[sim->dst];
-    const uint32_t i = t->home_at[h];
-    const sph_set *set = &sim->set[t->home_set[h]];
-    sph_real acc[SPH_DIM], a2 = 0, v2 = 0;
-    SPH_UNROLL
-    for (int k = 0; k < SPH_DIM; k++)
-        acc[k] = f->gravity[k] - v_fold(t->sum[SUM_ACC + k][h]) * f->slope;
-    if ((SPH_HAS_EXTRAS && f->extras) || (SPH_HAS_FORCE_WALLS && sim->has_force_wall))
-        finish_extras(sim, t, h, acc);
-    if (SPH_HAS_EDGES && sph_has_edges(&sim->cfg) && sph_is_solid(set))
-        finish_edges(sim, t, h, acc);
-    if (SPH_HAS_HELD && sph_held(sim, set))
-        hold(sim, set, i, acc);
-    SPH_UNROLL
-    for (int k = 0; k < SPH_DIM; k++) {
-        b->acc[k][i] = acc[k];
-        a2 += acc[k] * acc[k];
-        v2 += t->home.v[k][h] * t->home.v[k][h];
-    }
-    if (sph_shifts(&sim->cfg))
-        sph_finish_shift(sim, t, h);
-    t->peaks.mu = larger(t->peaks.mu, v_fold_max(t->sum[SUM_MU][h]));
-    t->peaks.acc = larger(t->peaks.acc, a2);
-    t->peaks.speed = larger(t->peaks.speed, v2);
-    return a2;
-}
-
-/* forces and rates of one particle from its sums */
-static void force_finish(sph_sim *sim, sph_thread *t, uint32_t h)
-{
-    const sph_buffer *b = &sim->buf[sim->dst];
-    const uint32_t i = t->home_at[h];
-    const sph_set *set = &sim->set[t->home_set[h]];
-    sph_real a2 = 0, d = 0;
-    if (sph_sums_rates(sim))
-        d = b->drho[0][i] = finish_rates(sim, t, h);
-    if (!sph_is_body(set))
-        return;
-    if (sph_sums_forces(sim))
-        a2 = finish_forces(sim, t, h);
-    if (!(a2 + d * d < SPH_LIMIT_SQUARE)) /* also catches not-a-number */
-        sph_fail_note(t, SPH_NOT_FINITE, sim->buf[sim->src].id[0][b->id[0][i]], (double)a2);
-}
-
-/* ---- the pass ---- */
 
 /* the column sets that these choices read */
 static uint32_t columns_of(const sph_choice *c)
@@ -755,13 +528,13 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const sph_choice c = choice_of(sim, true);
     const bool points = sph_takes_forces(&c);
     const sph_sweep w = {is_force_home,
-                         SPH_BODIES | 1u << SPH_ROLE_GHOST | (points ? 1u << SPH_ROLE_FORCE_WALL : 0),
+                         SPH_MATTER | 1u << SPH_ROLE_GHOST | (points ? 1u << SPH_ROLE_FORCE_WALL : 0),
                          sums_of(&c, true) | (points && (c.books || sim->has_force_wall) ? SUM_MASK(BOUNDARY) : 0),
                          (uint8_t)sph_needs_inv_rho(&c),
                          columns_of(&c),
                          force_tile,
-                         force_finish,
-                         SPH_HAS_APART ? kept_apart(sim) : 0,
+                         sph_finish_home,
+                         SPH_HAS_APART ? sph_asks_apart(sim) : 0,
                          SPH_SIFTS && SPH_HAS_TOTAL && c.total ? 1 + SPH_COLUMN_reference : 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

@@ -8,8 +8,8 @@
                           (Wickramarachchi 2009 eqs 4.8-4.20, with the sign of his 3.77): keeps momentum and energy, but
                           not angular momentum, and is exact for linear fields only where B_i = B_j
 
-   A ghost has T = p/rho^2 I; with it K = B_i x_ij of the body. Where a ghost is the home (its density goes by
-   continuity) it has the plain gradient after Bonet & Lok, and the body's B renormalised, so that the pair's two
+   A ghost has T = p/rho^2 I; with it K = B_i x_ij of the matter. Where a ghost is the home (its density goes by
+   continuity) it has the plain gradient after Bonet & Lok, and the matter's B renormalised, so that the pair's two
    works are of one K. Diffusion and Morris's viscosity keep the plain gradient. */
 #ifndef SPH_GRADIENT_H
 #define SPH_GRADIENT_H
@@ -27,7 +27,7 @@ SPH_INLINE sph_gradient_home sph_spread_gradient(const sph_choice *what, const s
     const sph_real *const own = sph_home_columns_of(sim, t, SPH_COLUMN_gradient);
     const sph_config *const c = &sim->cfg;
     sph_gradient_home o;
-    const bool ghost = SPH_WITH_WALL_GHOST && !sph_is_body(&sim->set[t->home_set[h]]); /* has no place in the array */
+    const bool ghost = SPH_WITH_WALL_GHOST && !sph_is_matter(&sim->set[t->home_set[h]]); /* has no place in the array */
     const sph_real plain = !SPH_IS(c->gradient, BONET_LOK) ? 0 : sph_weak_scheme(c->scheme) ? 1 : 1 / t->home.rho[h];
     o.share = v_set(ghost ? 1 : (sph_real)0.5);
     SPH_UNROLL

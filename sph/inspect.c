@@ -211,7 +211,7 @@ static sph_finding find_empty_sets(const sph_sim *sim)
         uint32_t i = 0;
         while (i < sim->now.count && b->set[0][i] != s)
             i++;
-        if (sph_is_body(&sim->set[s]) && i == sim->now.count)
+        if (sph_is_matter(&sim->set[s]) && i == sim->now.count)
             f.set = f.count++ ? f.set : s;
     }
     return f;

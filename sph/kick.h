@@ -60,7 +60,7 @@ SPH_INLINE void sph_correct(const sph_sim *sim, sph_span s)
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(b->set[0], i, s.last);
         const sph_set *set = &sim->set[b->set[0][i]];
-        const bool body = sph_is_body(set), evolves = body || sph_is_compressible(set);
+        const bool matter = sph_is_matter(set), evolves = matter || sph_is_compressible(set);
         for (uint32_t j = i; j < e && evolves && !foresees; j++)
             rho[j] = rho[j] + half * (rate[j] - old[at[j]]);
         for (uint32_t j = i; j < e && evolves && foresees; j++) {
@@ -68,7 +68,7 @@ SPH_INLINE void sph_correct(const sph_sim *sim, sph_span s)
             rho[j] = rho[j] + (half * rise - foresight * o->rise[0][at[j]]);
             b->rise[0][j] = rise * (sph_real)0.5;
         }
-        if (body)
+        if (matter)
             sph_kick_run(sim, set, i, e, half, 1);
     }
 }
@@ -81,7 +81,7 @@ SPH_INLINE void sph_kick(const sph_sim *sim, sph_span s, sph_real times)
     const uint8_t *sets = sim->buf[sim->dst].set[0];
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(sets, i, s.last);
-        if (sph_is_body(&sim->set[sets[i]]))
+        if (sph_is_matter(&sim->set[sets[i]]))
             sph_kick_run(sim, &sim->set[sets[i]], i, e, half, times);
     }
 }
@@ -96,9 +96,9 @@ SPH_INLINE void sph_to_the_end(const sph_sim *sim, sph_span s)
     for (uint32_t i = s.first, e; i < s.last; i = e) {
         e = sph_run_end(b->set[0], i, s.last);
         const sph_set *set = &sim->set[b->set[0][i]];
-        for (uint32_t j = i; j < e && (sph_is_body(set) || sph_is_compressible(set)); j++)
+        for (uint32_t j = i; j < e && (sph_is_matter(set) || sph_is_compressible(set)); j++)
             b->rho[0][j] = o->rho[0][at[j]] + dt * b->drho[0][j];
-        if (sph_is_body(set))
+        if (sph_is_matter(set))
             sph_foresee_run(sim, set, i, e, dt * (sph_real)0.5);
     }
 }
@@ -121,7 +121,7 @@ SPH_INLINE_BIG void sph_place(const sph_sim *sim, uint32_t i, const double *d, c
     const uint32_t turned = sph_enforce_faces(sim, q);
     if (turned & SPH_LEFT) {
         t->left++;
-        if (sim->cfg.on_leave == SPH_FAIL || !sph_is_body(&sim->set[b->set[0][i]]))
+        if (sim->cfg.on_leave == SPH_FAIL || !sph_is_matter(&sim->set[b->set[0][i]]))
             sph_note_left(sim, q, sph_source_id(sim, i), t);
         else {
             if (SPH_WITH_BOOKS)
@@ -144,17 +144,17 @@ SPH_INLINE_BIG void sph_mend_drift(const sph_sim *sim, sph_span s, sph_thread *t
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const sph_real half = (sph_real)sim->dt * (sph_real)0.5;
-    if (!sph_drift(b, 0))
+    if (!sph_drift(sim, b, 0))
         return;
     for (uint32_t i = s.first; i < s.last; i++) {
         double d[SPH_DIM];
         sph_pos from[SPH_DIM];
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             const sph_real turn = sph_has_mirrors(&sim->cfg, k) ? sph_turn(sim, k, i) : 1;
-            d[k] = (double)(half * (sph_drift(b, k)[i] - turn * sph_drift(o, k)[b->id[0][i]]));
+            d[k] = (double)(half * (sph_drift(sim, b, k)[i] - turn * sph_drift(sim, o, k)[b->id[0][i]]));
             from[k] = b->pos[k][i];
         }
-        if (sph_is_body(&sim->set[b->set[0][i]]))
+        if (sph_is_matter(&sim->set[b->set[0][i]]))
             sph_place(sim, i, d, from, t);
     }
     sph_displace_again(sim, s);

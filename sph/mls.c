@@ -42,9 +42,9 @@ static void mls_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t
     (void)role;
     for (uint32_t h = 0; h < homes; h++) {
         const sph_set *set = &sim->set[t->home_set[h]];
-        const sph_gather g = {t, sph_near_of(t, &t->bodies), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &set->rho0_r};
+        const sph_gather g = {t, sph_near_of(t, &t->matter), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &set->rho0_r};
         if (!SPH_WITH_SEVERAL_FLUIDS || !sim->mixed || t->of->kin == set->kin)
-            sph_sum_home(sim, t, &t->bodies, h, SPH_SUM_MASK(0, MLS_SUMS), mls_pair, &g);
+            sph_sum_home(sim, t, &t->matter, h, SPH_SUM_MASK(0, MLS_SUMS), mls_pair, &g);
     }
 }
 
@@ -70,7 +70,7 @@ static void mls_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 }
 static void mls_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, MLS_SUMS), true, 0, mls_tile, mls_finish,
+    const sph_sweep w = {sph_matter_home, SPH_MATTER, SPH_SUM_MASK(0, MLS_SUMS), true, 0, mls_tile, mls_finish,
                          SPH_WITH_SEVERAL_FLUIDS && sim->mixed ? SPH_APART_KIN : 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

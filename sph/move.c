@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* move.c: where the sort takes the particles of a block, and the kick that a stage gives before the sums: bodies by
+/* move.c: where the sort takes the particles of a block, and the kick that a stage gives before the sums: matter by
    their velocity and acceleration, walls and held sets as their group is told; then the faces of the domain. */
+#include "dmath.h"
 #include "motion.h"
 #include "arithmetic.h"
 
@@ -10,11 +11,20 @@ SPH_OBJECT(move)
    long one, its rise is noise. */
 static sph_real foresight(sph_real dt, sph_real last) { return dt < 2 * last ? dt * (dt / last) : 2 * dt; }
 
+sph_real sph_slowed_by(const sph_sim *sim)
+{
+    if (!SPH_WITH_DAMPING_RATE || !(sim->cfg.damping_rate > 0) || !sph_begins_step(sim))
+        return 1;
+    return (sph_real)sph_exp(-0.5 * sim->cfg.damping_rate * sim->dt);
+}
+
 sph_move sph_stage_move(const sph_sim *sim)
 {
     const sph_stage *g = sim->stage;
     const sph_real dt = (sph_real)sim->dt, damping = g->damps ? (sph_real)sim->cfg.damping : 1;
-    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping, sph_rounding(sim)};
+    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping, sph_rounding(sim), 1};
+    if (SPH_WITH_DAMPING_RATE)
+        m.slowed = sph_slowed_by(sim);
     if (sph_foresees(&sim->cfg))
         m.foresight = g->rate * foresight(dt, (sph_real)sim->now.dt_last);
     if (SPH_HAS_RATES_FIRST && g->resumes) {
@@ -26,7 +36,7 @@ sph_move sph_stage_move(const sph_sim *sim)
 
 /* displaces particles that forces move, i..i+n of src; returns false if one moves too far, not finitely, or out of
    the domain */
-SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, sph_block *o, uint32_t at,
+SPH_INLINE bool move_matter(const sph_sim *sim, const sph_move *a, uint32_t i, uint32_t n, sph_block *o, uint32_t at,
                             bool all)
 {
     const sph_buffer *b = &sim->buf[sim->src];
@@ -35,9 +45,10 @@ SPH_INLINE bool move_bodies(const sph_sim *sim, const sph_move *a, uint32_t i, u
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         /* no further than a cell, and never so far that the integer overflows */
         const vreal far = v_set((sph_real)sim->grid.cell_size[k]);
-        const sph_real *beside = sph_drift(b, k);
+        const sph_real *beside = sph_drift(sim, b, k);
         for (uint32_t j = 0; j < n; j += SPH_W) {
-            const vreal v = v_load(b->vel[k] + i + j), f = v_load(b->acc[k] + i + j);
+            const vreal was = v_load(b->vel[k] + i + j), f = v_load(b->acc[k] + i + j);
+            const vreal v = SPH_WITH_DAMPING_RATE ? was * a->slowed : was;
             const vreal u = beside ? v + v_load(beside + i + j) : v;
             const vreal d = (u * a->drift + f * a->bend) * inv;
             const vint ok = v_less(v_abs(d), far);
@@ -93,7 +104,7 @@ static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, 
 
 /* along the axes on which a set is held its particles go where the set goes; returns false where one leaves the
    domain */
-static bool hold_bodies(const sph_sim *sim, const sph_set *s, uint32_t i, uint32_t n, sph_block *o, uint32_t at)
+static bool prescribe_motion(const sph_sim *sim, const sph_set *s, uint32_t i, uint32_t n, sph_block *o, uint32_t at)
 {
     const sph_buffer *b = &sim->buf[sim->src];
     const uint32_t held = sph_held(sim, s);
@@ -114,7 +125,7 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
                           bool own, sph_thread *t)
 {
     const sph_buffer *b = &sim->buf[sim->src];
-    const bool body = sph_is_body(&sim->set[b->set[0][i]]);
+    const bool matter = sph_is_matter(&sim->set[b->set[0][i]]);
     sph_pos q[SPH_DIM];
     sph_real v[SPH_DIM];
     sph_real far = 0; /* the longest way, in cells */
@@ -125,12 +136,12 @@ static void mend_particle(const sph_sim *sim, const sph_move *a, uint32_t i, uin
         const sph_real way = u < 0 ? -u : u;
         far = !(way <= far) ? way : far;
     }
-    if (own && !(far < 1) && body)
+    if (own && !(far < 1) && matter)
         sph_fail_note(t, far - far == 0 ? SPH_MOVED_TOO_FAR : SPH_NOT_FINITE, b->id[0][i], (double)far);
     const uint32_t turned = sph_enforce_faces(sim, q);
     if (turned & SPH_LEFT) {
         o->gone[j] = 2;
-        if (own && (sim->cfg.on_leave == SPH_FAIL || !body))
+        if (own && (sim->cfg.on_leave == SPH_FAIL || !matter))
             sph_note_left(sim, q, b->id[0][i], t);
         t->left += own && !all;
         if (SPH_WITH_BOOKS && own && !all)
@@ -163,10 +174,10 @@ SPH_INLINE_BIG bool move_block(const sph_sim *sim, const sph_move *a, uint32_t i
         memset(o->gone + j, set == SPH_DEAD, e - j);
         if (set == SPH_DEAD)
             fine = false;
-        else if (sph_is_body(&sim->set[set])) {
-            fine &= move_bodies(sim, a, i + j, e - j, o, j, all);
+        else if (sph_is_matter(&sim->set[set])) {
+            fine &= move_matter(sim, a, i + j, e - j, o, j, all);
             if (SPH_HAS_HELD && sph_held(sim, &sim->set[set]))
-                fine &= hold_bodies(sim, &sim->set[set], i + j, e - j, o, j);
+                fine &= prescribe_motion(sim, &sim->set[set], i + j, e - j, o, j);
         } else if (SPH_HAS_WALLS)
             fine &= move_walls(sim, a, &sim->set[set], i + j, e - j, o, j);
         j = e;

@@ -100,7 +100,7 @@ SPH_INLINE void write_record(const sph_tile *tile, uint32_t j, sph_real *r)
 void sph_sift_tile(const sph_sim *sim, sph_thread *t, sph_tile *tile, uint32_t homes)
 {
     sph_sifted *const s = &t->sifted;
-    const bool other = tile == &t->bodies && t->sifted.sweep->other_place;
+    const bool other = tile == &t->matter && t->sifted.sweep->other_place;
     s->kept = other ? keep_all(tile, s->at) : keep(sim, tile, box_of(&t->home, homes), s->at);
     write_record(tile, tile->n, s->record[s->kept]); /* as sph_close_tile made it */
     s->at[s->kept] = (uint16_t)tile->n;
@@ -154,7 +154,7 @@ SPH_INLINE uint32_t list_within(const sph_sim *sim, sph_sifted *s, const place_v
 
 uint32_t sph_find_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t home)
 {
-    const uint32_t other = tile == &t->bodies ? t->sifted.sweep->other_place : 0;
+    const uint32_t other = tile == &t->matter ? t->sifted.sweep->other_place : 0;
     place_view is, was;
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++) {

@@ -20,6 +20,10 @@
 #ifndef SPH_OPTIONS_H
 #define SPH_OPTIONS_H
 
+#include "flow.h"
+#include "damper.h"
+#include "damping.h"
+#include "evening.h"
 #include "edges.h"
 #include "shifting.h"
 #include "sponge.h"
@@ -151,7 +155,11 @@
       "SPH_TOTAL: how far a bond may be drawn, in supports; cells grow with it")                                      \
     SPH_EDGE_OPTIONS(O, P, A)                                                                                         \
     SPH_SHIFTING_OPTIONS(O, P, A)                                                                                     \
+    SPH_FLOW_OPTIONS(O, P, A)                                                                                         \
     SPH_SPONGE_OPTIONS(O, P, A)                                                                                       \
+    SPH_DAMPER_OPTIONS(O, P, A)                                                                                       \
+    SPH_DAMPING_OPTIONS(O, P, A)                                                                                      \
+    SPH_EVENING_OPTIONS(O, P, A)                                                                                      \
     SPH_EXTRA_OPTIONS(O, P, A)
 
 /* members of sph_config */

@@ -66,6 +66,8 @@ SPH_INLINE const sph_near_tile *sph_near_of(const sph_thread *t, const sph_tile 
 SPH_INLINE void sph_sum_home(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t h, uint32_t sums,
                              sph_pair_fn pair, const void *what)
 {
+    if (SPH_HAS_SIDES && tile == &t->ghosts && sim->sided && !sph_is_acted_on(sim, t, h))
+        return;
     if (!SPH_SIFTS) {
         sph_sum_lanes(t, h, tile->n, sums, pair, what);
         return;
@@ -120,16 +122,16 @@ SPH_INLINE void sph_gather_tile(const sph_sim *sim, sph_thread *t, const sph_til
 }
 SPH_INLINE const sph_tile *sph_tile_of(const sph_thread *t, uint32_t role)
 {
-    return SPH_HAS_LAYERED_WALLS && role == SPH_ROLE_GHOST ? &t->ghosts : &t->bodies;
+    return SPH_HAS_LAYERED_WALLS && role == SPH_ROLE_GHOST ? &t->ghosts : &t->matter;
 }
 /* masks of n sums from row `first` on */
 #define SPH_SUM_MASK(first, n) (((1u << (n)) - 1u) << (first))
 
 /* homes of a gather */
-SPH_INLINE bool sph_body_home(const sph_sim *sim, const sph_set *s)
+SPH_INLINE bool sph_matter_home(const sph_sim *sim, const sph_set *s)
 {
     (void)sim;
-    return sph_is_body(s);
+    return sph_is_matter(s);
 }
 
 #endif

@@ -2,7 +2,7 @@
 /* pair_power.h: what a pair does to the energy, for the books, per unit mass of the home and without the kernel's
    scale. With F the force on the home and A = p/rho^2 (or T) of each:
 
-     viscous      power of the viscous force relative to the partner; pairs of bodies are counted twice, so by half
+     viscous      power of the viscous force relative to the partner; pairs in matter are counted twice, so by half
      diffused     rate of density by diffusion
      wall         -F . v_w, what a wall does at its own velocity
      in walls     what else the pair takes from home and wall: -F . (v_i - v_w) less A_i K . v_iw of the home's rate of

@@ -39,7 +39,7 @@ static double damping_loss(const sph_sim *sim, const sph_set *set, const sph_buf
     const double g2 = sim->cfg.damping * sim->cfg.damping, whole = sim->stage->damps ? g2 * g2 : g2;
     const uint32_t held = sph_held(sim, set);
     double v2 = 0;
-    for (uint32_t k = 0; k < SPH_DIM; k++)
+    for (uint32_t k = 0; k < SPH_DIM && !sph_flow_of(sim, set); k++)
         v2 += held >> k & 1 ? 0 : (double)b->vel[k][i] * (double)b->vel[k][i];
     return 0.5 * (1 / whole - 1) * v2;
 }
@@ -51,7 +51,7 @@ void sph_sum_powers(const sph_sim *sim, sph_span s, double *row)
     const bool damps = sim->cfg.damping < 1 && sim->dt > 0;
     for (uint32_t i = s.first; row && i < s.last; i++) {
         const sph_set *set = &sim->set[b->set[0][i]]; /* of the dead: never read */
-        if (b->set[0][i] == SPH_DEAD || !sph_is_body(set)) /* walls were in no sums */
+        if (b->set[0][i] == SPH_DEAD || !sph_is_matter(set)) /* walls were in no sums */
             continue;
         row[JUMP_HELD] += set->mass * held_gain(sim, set);
         if (damps)

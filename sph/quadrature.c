@@ -94,8 +94,8 @@ SPH_INLINE void weigh_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, bo
             w.home = sph_spread_reference(sph_reference_homes_of(sim, t), h);
         w.home_kind = v_set(SPH_KIND_ROW(home, own)[h]);
         w.home_cover = v_set(second ? sph_home_columns_of(sim, t, SPH_COLUMN_cover)[h] : 0);
-        const sph_gather g = {t, sph_near_of(t, &t->bodies), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &w};
-        sph_sum_home(sim, t, &t->bodies, h, SPH_SUM_MASK(SUM_Q, 1), second ? weight_pair : cover_pair, &g);
+        const sph_gather g = {t, sph_near_of(t, &t->matter), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &w};
+        sph_sum_home(sim, t, &t->matter, h, SPH_SUM_MASK(SUM_Q, 1), second ? weight_pair : cover_pair, &g);
     }
 }
 static void cover_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
@@ -135,14 +135,14 @@ static uint32_t weighing_columns(const sph_sim *sim)
 static uint8_t other_place(const sph_sim *sim) { return sph_is_total(&sim->cfg) ? 1 + SPH_COLUMN_reference : 0; }
 static void cover_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {cover_home, SPH_BODIES,   SPH_SUM_MASK(SUM_Q, 1), false, weighing_columns(sim),
+    const sph_sweep w = {cover_home, SPH_MATTER,   SPH_SUM_MASK(SUM_Q, 1), false, weighing_columns(sim),
                          cover_tile, cover_finish, 0,                      other_place(sim)};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static void weight_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const uint32_t columns = weighing_columns(sim) | 1u << SPH_COLUMN_cover;
-    const sph_sweep w = {weighed_home, SPH_BODIES,    SPH_SUM_MASK(SUM_Q, 1), false, columns,
+    const sph_sweep w = {weighed_home, SPH_MATTER,    SPH_SUM_MASK(SUM_Q, 1), false, columns,
                          weight_tile,  weight_finish, 0,                      other_place(sim)};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

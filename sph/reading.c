@@ -33,7 +33,7 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
         out->damage = sph_stress_of(sim, b, i, out->stress);
         out->plastic = sph_plastic_at(b, i);
     }
-    if (!sph_is_body(s))
+    if (!sph_is_matter(s))
         for (int k = 0; k < SPH_DIM; k++)
             out->v[k] = sim->now.group[s->group].vel[k];
     return SPH_OK;

@@ -17,7 +17,7 @@ SPH_INLINE void sph_position(const sph_sim *sim, const sph_buffer *b, uint32_t i
 SPH_INLINE bool sph_body_at(const sph_sim *sim, const sph_buffer *b, uint32_t i)
 {
     const uint8_t s = b->set[0][i];
-    return s != SPH_DEAD && sph_is_body(&sim->set[s]);
+    return s != SPH_DEAD && sph_is_matter(&sim->set[s]);
 }
 
 /* its equivalent plastic strain */

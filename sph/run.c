@@ -130,7 +130,7 @@ static double fluid_mass(const sph_sim *sim, const sph_buffer *b, uint32_t n)
     double mass = 0;
     for (uint32_t s = 0; s < sim->sets; s++) {
         uint32_t count = 0;
-        if (!sph_is_body(&sim->set[s]))
+        if (!sph_is_matter(&sim->set[s]))
             continue;
         for (uint32_t i = 0; i < n; i++)
             count += b->set[0][i] == s;
@@ -143,7 +143,7 @@ static void commit(sph_sim *sim)
 {
     const bool prime = sim->next.step == sim->now.step;
     if (sim->next.left != sim->now.left)
-        sim->next.removed_mass += fluid_mass(sim, &sim->buf[sim->cur], sim->now.count) -
+        sim->next.removed_mass += fluid_mass(sim, &sim->buf[sim->cur], sim->now.count + sph_newcomers(sim)) -
                                   fluid_mass(sim, &sim->buf[sim->dst], sim->next.count);
     sim->next.primed = true;
     sim->next.started |= !prime;

@@ -31,12 +31,12 @@ SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
         sph_turn_fields(sim, i, sim->turned[b->id[0][i]]);
     const uint32_t p = b->id[0][i];
     const sph_set *set = &sim->set[b->set[0][i]];
-    if (sph_is_body(set) || sph_is_compressible(set)) {
+    if (sph_is_matter(set) || sph_is_compressible(set)) {
         const sph_real r = o->rho[0][p], d = b->drho[0][i];
         const sph_real mid = r + half * d;
         b->rho[0][i] = momentum ? r + dt * d : 2 * mid - r;
     }
-    if (!sph_is_body(set)) {
+    if (!sph_is_matter(set)) {
         sph_advance_wall(sim, set, i, t);
         return;
     }
@@ -50,7 +50,7 @@ SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
             b->vel[k][i] = (sph_real)sph_wall_velocity(sim, set, k);
             continue;
         }
-        const sph_real *beside = sph_drift(b, k);
+        const sph_real *beside = sph_drift(sim, b, k);
         const sph_real v = o->vel[k][p], half_v = v + half * o->acc[k][p];
         const sph_real a = b->acc[k][i], x = beside ? beside[i] : 0;
         const sph_real mid = v + half * a;

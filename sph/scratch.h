@@ -88,20 +88,24 @@ typedef struct sph_thread {
     union {
         struct { /* sweeps */
             sph_home_tile home;
-            sph_tile bodies, ghosts;
+            sph_tile matter, ghosts;
 #if SPH_SIFTS
             sph_sifted sifted;
 #endif
             sph_points points;
+#if SPH_HAS_SIDES
+            const sph_set *wall; /* whose tile of ghosts it is, if that acts on one side only; through which image */
+            sph_image wall_seen;
+#endif
             uint32_t home_at[SPH_HOMES]; /* index of the home particle */
             uint8_t home_set[SPH_HOMES];
-            /* where a pass asks for tiles of one kind: a set in `bodies`, through which image, from which cell */
+            /* where a pass asks for tiles of one kind: a set in `matter`, through which image, from which cell */
             const sph_set *of;
             sph_image seen;
             sph_pos origin[SPH_DIM];
             sph_real sum[SPH_SUMS][SPH_HOMES][SPH_LANES]; /* one row of lanes for each sum of each home */
 #if SPH_HAS_APART
-            sph_factors factors; /* of the pairs of a home and a tile of one kind (forces.c) */
+            sph_factors factors; /* of the pairs of a home and a tile of one kind (factors.c) */
 #endif
         };
         sph_block block;                /* the sort */

@@ -36,7 +36,7 @@ void sph_settle(const sph_sim *sim, sph_span s)
         e = sph_run_end(b->set[0], i, s.last);
         const uint8_t set = b->set[0][i];
         const bool gone = set == SPH_DEAD; /* among them walls, that were in no sums */
-        if (!gone && sph_is_body(&sim->set[set]))
+        if (!gone && sph_is_matter(&sim->set[set]))
             continue;
         n = n ? n : find_summed(b, summed);
         for (uint32_t k = 0; k < n; k++) /* walls that are compressible have a rate of density, and its rise */

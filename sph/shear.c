@@ -157,7 +157,7 @@ static void shear_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void shear_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const uint32_t columns = SPH_HAS_LAYERED_WALLS ? 1u << SPH_COLUMN_mirror : 0;
-    const sph_sweep w = {sph_body_home, SPH_BODIES | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(0, SPH_NL),
+    const sph_sweep w = {sph_matter_home, SPH_MATTER | 1u << SPH_ROLE_GHOST, SPH_SUM_MASK(0, SPH_NL),
                          sph_weak_scheme(sim->cfg.scheme), columns, shear_tile, shear_finish, 0, 0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

@@ -6,7 +6,7 @@
                                      (Wickramarachchi 2009 eqs 5.11, 5.33; the first is the divergence of 5.4, 5.5)
      corrected gradients: T = tau B/rho^2, which does the same work on the corrected gradient of the velocity
 
-   so what the forces of a pair of bodies take is the sum of tau : grad v over both, and momenta stay. Against a wall
+   so what the forces of a pair in matter take is the sum of tau : grad v over both, and momenta stay. Against a wall
    without slip T_j = T_i: the stress goes on into it as it is. The wall's work is on the books as that of every force;
    what it takes beside tau : (the part of grad v that the wall gives) is in_walls. Free slip: nothing. */
 #ifndef SPH_SHEAR_H
@@ -22,12 +22,12 @@ typedef struct sph_shear_home {
 SPH_INLINE sph_shear_home sph_spread_shear(const sph_sim *sim, const sph_thread *t, uint32_t h)
 {
     const sph_real *const own = sph_home_columns_of(sim, t, SPH_COLUMN_shear);
-    const bool body = sph_is_body(&sim->set[t->home_set[h]]); /* ghosts have no place in the array */
+    const bool matter = sph_is_matter(&sim->set[t->home_set[h]]); /* ghosts have no place in the array */
     sph_shear_home o;
     SPH_UNROLL_MANY
     for (uint32_t k = 0; k < SPH_NL; k++)
-        o.t[k] = v_set(body ? own[k * SPH_HOME_ROOM + h] : 0);
-    o.mu = v_set(body ? own[SPH_NL * SPH_HOME_ROOM + h] : 0);
+        o.t[k] = v_set(matter ? own[k * SPH_HOME_ROOM + h] : 0);
+    o.mu = v_set(matter ? own[SPH_NL * SPH_HOME_ROOM + h] : 0);
     return o;
 }
 

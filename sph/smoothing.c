@@ -19,9 +19,9 @@ SPH_INLINE sph_real *smoothed(const sph_sim *sim, const sph_buffer *b, uint32_t 
 /* walls are smoothed by nobody: theirs is the velocity that every pair sees */
 void sph_load_smoothed(const sph_candidates *r, sph_real *to, uint32_t row)
 {
-    for (uint32_t k = 0; k < SPH_DIM && !sph_is_body(r->set); k++)
+    for (uint32_t k = 0; k < SPH_DIM && !sph_is_matter(r->set); k++)
         memcpy(to + k * row, r->tile->v[k] + r->at, r->n * sizeof(sph_real));
-    if (!sph_is_body(r->set))
+    if (!sph_is_matter(r->set))
         return;
     for (uint32_t j = 0; j < r->n; j += SPH_W)
         for (uint32_t k = 0; k < SPH_DIM; k++) {
@@ -61,7 +61,7 @@ static void smooth_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint3
     (void)role;
     if (SPH_HAS_TOTAL && sph_is_total(&sim->cfg))
         own = (smoothing){sph_reference_homes_of(sim, t), sph_reference_of(sim, t)};
-    sph_gather_tile(sim, t, &t->bodies, homes, SPH_SUM_MASK(0, SPH_DIM), smooth_pair, &own);
+    sph_gather_tile(sim, t, &t->matter, homes, SPH_SUM_MASK(0, SPH_DIM), smooth_pair, &own);
 }
 
 static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
@@ -75,7 +75,7 @@ static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const bool total = sph_is_total(&sim->cfg);
-    const sph_sweep w = {sph_body_home, SPH_BODIES, SPH_SUM_MASK(0, SPH_DIM), false,
+    const sph_sweep w = {sph_matter_home, SPH_MATTER, SPH_SUM_MASK(0, SPH_DIM), false,
                          total ? 1u << SPH_COLUMN_reference : 0, smooth_tile, smooth_finish, 0,
                          total ? 1 + SPH_COLUMN_reference : 0};
     sph_sweep_chunk(sim, &w, chunk, t);

@@ -58,7 +58,7 @@ SPH_INLINE uint32_t *tile_count(sph_thread *t, uint32_t role)
         return &t->ghosts.n;
     if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
         return &t->points.n;
-    return &t->bodies.n;
+    return &t->matter.n;
 }
 
 /* works a class's tile off for all homes and empties it */
@@ -70,13 +70,13 @@ static void flush(filling *f, uint32_t role)
     if (*n == 0)
         return;
     SPH_ASSERT(*n <= SPH_TILE);
-    SPH_VALIDATE(role == SPH_ROLE_FORCE_WALL || sph_is_tile_sound(ghosts ? &t->ghosts : &t->bodies));
+    SPH_VALIDATE(role == SPH_ROLE_FORCE_WALL || sph_is_tile_sound(ghosts ? &t->ghosts : &t->matter));
     if (!SPH_HAS_FORCE_WALLS || role != SPH_ROLE_FORCE_WALL) {
-        sph_close_tile(f->sim, ghosts ? &t->ghosts : &t->bodies);
+        sph_close_tile(f->sim, ghosts ? &t->ghosts : &t->matter);
         if (f->w->columns)
             close_sets(f, *n, ghosts);
         if (SPH_SIFTS)
-            sph_sift_tile(f->sim, t, ghosts ? &t->ghosts : &t->bodies, f->homes);
+            sph_sift_tile(f->sim, t, ghosts ? &t->ghosts : &t->matter, f->homes);
     }
     f->w->tile(f->sim, t, f->homes, role);
     t->pairs += (uint64_t)*n * f->homes;
@@ -92,18 +92,18 @@ static void load_run(filling *f, const sph_candidates *r, uint32_t role)
         return;
     }
     const bool ghosts = SPH_HAS_LAYERED_WALLS && role == SPH_ROLE_GHOST;
-    sph_load_tile(r, ghosts ? &t->ghosts : &t->bodies, f->w->needs_inv_rho, false);
+    sph_load_tile(r, ghosts ? &t->ghosts : &t->matter, f->w->needs_inv_rho, false);
     if (f->w->columns)
         load_sets(f, r, ghosts, false);
 }
 
-/* whether candidates of a set, seen through an image, may join those in the tile of bodies; if the tile is empty, what
+/* whether candidates of a set, seen through an image, may join those in the tile of matter; if the tile is empty, what
    they are is noted */
 static bool joins(filling *f, const sph_set *set, const sph_image *im)
 {
     sph_thread *const t = f->t;
     bool same = true;
-    if (t->bodies.n == 0) {
+    if (t->matter.n == 0) {
         t->of = set;
         t->seen = *im;
         memcpy(t->origin, f->origin, sizeof t->origin);
@@ -115,10 +115,51 @@ static bool joins(filling *f, const sph_set *set, const sph_image *im)
     return same;
 }
 
+#if SPH_HAS_SIDES
+/* whether candidates of a set of walls, seen through an image, may join those in the tile of ghosts; if the tile is
+   empty, what they are is noted */
+static bool joins_wall(filling *f, const sph_set *set, const sph_image *im)
+{
+    sph_thread *const t = f->t;
+    const sph_set *const own = set->side ? set : NULL;
+    if (t->ghosts.n == 0) {
+        t->wall = own;
+        t->wall_seen = *im;
+    }
+    bool same = t->wall == own;
+    for (uint32_t k = 0; k < SPH_DIM && own; k++)
+        same &= t->wall_seen.sign[k] == im->sign[k] && t->wall_seen.shift[k] == im->shift[k];
+    return same;
+}
+
+bool sph_is_acted_on(const sph_sim *sim, const sph_thread *t, uint32_t h)
+{
+    const sph_set *const s = t->wall;
+    const double q = sim->grid.quantum;
+    double d[SPH_DIM], frame[SPH_DIM][SPH_DIM], x[SPH_DIM] = {0};
+    if (!s)
+        return true;
+    sph_frame_of(s, frame);
+    for (uint32_t k = 0; k < SPH_DIM; k++) { /* from the face, as the image shows it, turned back */
+        const double seen = ((double)sim->buf[sim->dst].pos[k][t->home_at[h]] - (double)t->wall_seen.shift[k]) * q;
+        d[k] = (double)t->wall_seen.sign[k] * seen - s->origin[k] - (double)sph_wall_moved(sim, s, k) * q;
+    }
+    for (uint32_t l = 0; l < SPH_DIM; l++)
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            x[l] += frame[l][k] * d[k];
+    bool acts = x[0] > 0;
+    for (uint32_t l = 1; l < SPH_DIM && s->side == SPH_FACE; l++)
+        acts &= x[l] >= -s->half[l - 1] && x[l] <= s->half[l - 1];
+    return acts;
+}
+#else
+#define joins_wall(f, set, im) ((void)(f), (void)(set), (void)(im), true)
+#endif
+
 /* candidates s..e of one set into their tile */
 static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_t s, uint32_t e)
 {
-    const uint32_t role = sph_is_body(set) ? SPH_ROLE_FLUID : set->role;
+    const uint32_t role = sph_is_matter(set) ? SPH_ROLE_FLUID : set->role;
     uint32_t *const n = tile_count(f->t, role);
     while (s < e) {
         if (*n == SPH_TILE)
@@ -127,8 +168,12 @@ static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_
             flush(f, role);
             (void)joins(f, set, im);
         }
+        if (SPH_HAS_SIDES && f->sim->sided && role == SPH_ROLE_GHOST && !joins_wall(f, set, im)) {
+            flush(f, role);
+            (void)joins_wall(f, set, im);
+        }
         const uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
-        const sph_tile *const tile = role == SPH_ROLE_GHOST ? &f->t->ghosts : &f->t->bodies;
+        const sph_tile *const tile = role == SPH_ROLE_GHOST ? &f->t->ghosts : &f->t->matter;
         const sph_candidates r = {f->sim, f->b, im, set, f->origin, s, take, tile, *n};
         load_run(f, &r, role);
         *n += take;
@@ -253,10 +298,10 @@ static void add_all(filling *f, const uint32_t *c)
 #if SPH_SIFTS
 /* homes are loaded as candidates are, where no candidates stand yet */
 static void note_sweep(sph_thread *t, const sph_sweep *w) { t->sifted.sweep = w; }
-#define HOMES_LOADED(t) (&(t)->bodies)
+#define HOMES_LOADED(t) (&(t)->matter)
 static void copy_homes(sph_thread *t)
 {
-    const sph_tile *const from = &t->bodies;
+    const sph_tile *const from = &t->matter;
     sph_home_tile *const to = &t->home;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         memcpy(to->x[k], from->x[k], sizeof to->x[k]);
@@ -326,7 +371,7 @@ static void sweep_cell(filling *f, uint32_t cell, const uint32_t *c)
         for (uint32_t a = 0; f->w->sums >> a; a++)
             for (uint32_t h = 0; f->w->sums >> a & 1 && h < f->homes; h += 8)
                 clear_eight(f->t->sum[a][h]);
-        f->t->bodies.n = f->t->ghosts.n = f->t->points.n = 0;
+        f->t->matter.n = f->t->ghosts.n = f->t->points.n = 0;
         add_all(f, c);
         flush(f, SPH_ROLE_FLUID);
         if (SPH_HAS_LAYERED_WALLS)

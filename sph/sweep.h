@@ -4,10 +4,11 @@
    pair formula reads. A pass gives the sweep three small functions: which particles are homes, what to add up over a
    tile, and what to do with the sums. No neighbour list is kept.
 
-   There is a tile for each class of candidates: bodies (fluid and solid), ghosts, points (boundary-force particles).
-   Candidate number k of a tile goes to lane k mod 8; in three dimensions (SPH_SIFTS) candidate number k of those within
-   the kernel's reach of a home (neighbours.c). So sums depend on places and the order of candidates only. A full tile
-   is worked off and refilled: the capacities are part of the definition of the bits. */
+   There is a tile for each class of candidates: matter (fluid and solid: what moves by forces), ghosts, points
+   (boundary-force particles). Candidate number k of a tile goes to lane k mod 8; in three dimensions (SPH_SIFTS)
+   candidate number k of those within the kernel's reach of a home (neighbours.c). So sums depend on places and the
+   order of candidates only. A full tile is worked off and refilled: the capacities are part of the definition of the
+   bits. */
 #ifndef SPH_SWEEP_H
 #define SPH_SWEEP_H
 
@@ -49,12 +50,12 @@ SPH_INLINE vreal sph_seen_mixed(const sph_candidates *r, uint32_t k, uint32_t l,
     return r->im->is_image ? v * (r->im->flip[k] * (sph_real)r->im->sign[l]) : v;
 }
 
-/* A column set: rows of reals that a module's candidates (and, of bodies, homes) bring beside those of every tile.
+/* A column set: rows of reals that a module's candidates (and, of matter, homes) bring beside those of every tile.
    The loader writes row r of particle `first` + j to to[r * row + j], j = 0 .. n - 1, and may write SPH_W - 1
    elements more. Behind the last candidate all are 0. The module overlays a struct of its own on the rows in its
    header. */
 struct sph_column_set {
-    uint8_t ghosts; /* 1: of ghosts; 0: of bodies, and of homes */
+    uint8_t ghosts; /* 1: of ghosts; 0: of matter, and of homes */
     uint8_t rows;
     void (*load)(const sph_candidates *r, sph_real *to, uint32_t row);
 };
@@ -86,8 +87,8 @@ typedef struct sph_sweep {
     uint32_t columns;     /* an or of 1 << SPH_COLUMN_... */
     void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role); /* add a tile to the homes' sums */
     void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                     /* a home's sums are complete */
-    uint8_t apart;        /* an or of SPH_APART_...: its tiles of bodies are of one kind of candidates */
-    uint8_t other_place;  /* 0, or 1 + a column set: the kernel may see bodies where its first rows say instead */
+    uint8_t apart;        /* an or of SPH_APART_...: its tiles of matter are of one kind of candidates */
+    uint8_t other_place;  /* 0, or 1 + a column set: the kernel may see matter where its first rows say instead */
 } sph_sweep;
 enum { SPH_APART_KIN = 1, SPH_APART_MIRRORED = 2 }; /* of one material; seen through the same mirrors */
 
@@ -136,6 +137,10 @@ void sph_sift_tile(const sph_sim *sim, sph_thread *t, sph_tile *tile, uint32_t h
 uint32_t sph_find_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t home);
 #define sph_take_neighbours SPH_NAME(take_neighbours_)
 uint32_t sph_take_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t from, uint32_t found);
+
+/* whether home h feels the walls in the tile of ghosts: it may stand on the other side of one-sided ones */
+#define sph_is_acted_on SPH_NAME(is_acted_on_)
+bool sph_is_acted_on(const sph_sim *sim, const sph_thread *t, uint32_t h);
 
 /* tiles.c: the columns of every tile, for a run; `homes`: into the tile of homes */
 #define sph_load_tile SPH_NAME(load_tile_)

@@ -95,7 +95,7 @@ typedef struct sph_near {
                                                     the home's own energy gains by the velocity gradient */
 } sph_near;
 
-/* The velocity along `push` at which a pair of bodies is asked what it does to the energy: relative, by half, because
+/* The velocity along `push` at which a pair in matter is asked what it does to the energy: relative, by half, because
    each of the two asks (`relative`: v_ij . push); where the partner does not push back alike, the home's own. */
 SPH_INLINE vreal sph_pair_share(const sph_choice *c, const sph_home *h, const sph_near *p, const vreal *push,
                                 vreal relative)

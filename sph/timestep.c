@@ -17,7 +17,7 @@ static double sound_of(const sph_sim *sim, const sph_set *set)
     return __builtin_sqrt(c2 + 4 * sph_material_of(sim, set)->shear / (3 * set->rho0));
 }
 
-/* the fastest sound of the scene's sets (m/s); nominal: the fastest c0 of its bodies, with which viscosity and
+/* the fastest sound of the scene's sets (m/s); nominal: the fastest c0 of its matter, with which viscosity and
    diffusion are made */
 static double fastest_sound(const sph_sim *sim, bool nominal)
 {
@@ -29,7 +29,7 @@ static double fastest_sound(const sph_sim *sim, bool nominal)
         return c;
     for (uint32_t s = 0; s < sim->sets; s++) {
         const sph_set *set = &sim->set[s];
-        const double own = !nominal ? sound_of(sim, set) : sph_is_body(set) ? set->c0 : 0;
+        const double own = !nominal ? sound_of(sim, set) : sph_is_matter(set) ? set->c0 : 0;
         c = own > c ? own : c;
     }
     return c;

@@ -48,7 +48,7 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
     out->dissipated = sim->now.work[POWER_DISSIPATED];
     out->wall_work = sim->now.work[POWER_WALL];
     out->diffused = sim->now.work[POWER_DIFFUSED];
-    out->body_work = sim->now.work[POWER_BODY];
+    out->body_work = sim->now.work[POWER_BODY_FORCE];
     out->in_walls = sim->now.work[POWER_IN_WALLS];
     out->in_bonds = sim->now.work[POWER_IN_BONDS];
     out->unbalanced = sim->now.work[POWER_UNBALANCED];
@@ -56,7 +56,7 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
     SPH_BOOKS(BOOK_TOTAL)
     out->balance = out->kinetic + out->potential + out->internal + out->elastic + out->plastic_work - out->wall_work -
         out->body_work + out->dissipated + out->diffused + out->in_walls + out->in_bonds + out->unbalanced +
-        out->absorbed + out->shifted + out->carried_off + out->released + out->put_back_loss + out->filtered +
-        out->damped;
+        out->absorbed + out->shifted + out->quieted + out->slowed + out->evened + out->carried_off + out->released +
+        out->put_back_loss + out->filtered + out->damped - out->fed;
 }
 #endif

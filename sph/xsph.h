@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* xsph.h: XSPH, the velocity with which positions drift beside their own: u_i += xsph (m_j/rho_mean) (v_j - v_i) W
-   (Gray 2001 eq 2.22), between bodies only (not with walls, as he says). */
+   (Gray 2001 eq 2.22), in matter only (not with walls, as he says). */
 #ifndef SPH_XSPH_H
 #define SPH_XSPH_H
 

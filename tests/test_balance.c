@@ -190,7 +190,7 @@ static double rate_of(const sph_sim *sim, uint32_t i, double *size)
 static double booked(const sph_sim *sim)
 {
     const double *p = sim->now.power;
-    return p[POWER_WALL] + p[POWER_BODY] - p[POWER_DISSIPATED] - p[POWER_DIFFUSED] - p[POWER_IN_WALLS] -
+    return p[POWER_WALL] + p[POWER_BODY_FORCE] - p[POWER_DISSIPATED] - p[POWER_DIFFUSED] - p[POWER_IN_WALLS] -
         p[POWER_IN_BONDS] - p[POWER_UNBALANCED];
 }
 
@@ -220,7 +220,7 @@ static void check(const scene *s)
         rate = (internal_after(s, 1e-6) - internal_after(s, -1e-6)) / 2e-6;
     const sph_sim *sim = make(s, 0);
     for (uint32_t i = 0; i < sph_count(sim); i++)
-        if (sph_is_body(&sim->set[sim->buf[sim->cur].set[0][i]]))
+        if (sph_is_matter(&sim->set[sim->buf[sim->cur].set[0][i]]))
             rate += rate_of(sim, i, &size);
     error = fabs(rate - booked(sim)) / size;
     for (int k = 0; k < SPH_POWERS; k++)

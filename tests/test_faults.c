@@ -429,7 +429,7 @@ static void scratch_between_slices_does_not_matter(void **state)
             st = sph_step_slice(bed.sim, SLICE);
             for (uint32_t t = 0; t < bed.sim->cfg.max_threads; t++) {
                 memset(&bed.sim->thread[t], 0xff, offsetof(sph_thread, work)); /* all bits set is not a number */
-                bed.sim->thread[t].points.n = bed.sim->thread[t].home.n = bed.sim->thread[t].bodies.n = 0;
+                bed.sim->thread[t].points.n = bed.sim->thread[t].home.n = bed.sim->thread[t].matter.n = 0;
                 bed.sim->thread[t].ghosts.n = 0;
             }
             memset(bed.sim->extra, 0xff, sizeof(sph_real) * bed.sim->extra_reals * bed.sim->cfg.max_threads);

@@ -224,7 +224,7 @@ static void walls_have_no_rates(void **state)
         must(sim, sph_step(sim));
     b = &sim->buf[sim->cur];
     for (uint32_t i = 0; i < sim->now.count; i++)
-        if (!sph_is_body(&sim->set[b->set[0][i]])) {
+        if (!sph_is_matter(&sim->set[b->set[0][i]])) {
             close_to((double)b->sum[0][i], 0, 0);
             close_to((double)b->dheat[0][i], 0, 0);
             assert_true(b->heat[0][i] < (sph_real)1e-2);
@@ -361,12 +361,12 @@ static bool any_home(const sph_sim *sim, const sph_set *set)
    them; `own`: the column that says x of all candidates */
 static void look_at_neighbours(const sph_sim *sim, sph_thread *t, uint32_t h, const sph_real *own)
 {
-    const sph_near_tile *const near = sph_near_of(t, &t->bodies);
+    const sph_near_tile *const near = sph_near_of(t, &t->matter);
     const sph_real *const with = sph_near_columns_of(sim, t, SPH_COLUMN_spare);
-    const uint32_t found = sph_find_neighbours(sim, t, &t->bodies, h);
+    const uint32_t found = sph_find_neighbours(sim, t, &t->matter, h);
     uint32_t within = 0, j = 0;
     for (uint32_t from = 0; from < found; from += SPH_NEAR_ROOM) {
-        const uint32_t n = sph_take_neighbours(sim, t, &t->bodies, from, found);
+        const uint32_t n = sph_take_neighbours(sim, t, &t->matter, from, found);
         assert_int_equal(n % SPH_LANES, 0);
         for (uint32_t i = 0; i < n; i++) {
             sph_real d[SPH_DIM], r2 = 0;
@@ -382,9 +382,9 @@ static void look_at_neighbours(const sph_sim *sim, sph_thread *t, uint32_t h, co
             assert_true(r2 < sim->fac.reach2);
             close_to((double)with[i], (double)near->x[0][i], 0);
             close_to((double)with[SPH_NEAR_ROOM + i], (double)near->v[0][i], 0);
-            while (j < t->bodies.n && own[j] != near->x[0][i]) /* they come in order */
+            while (j < t->matter.n && own[j] != near->x[0][i]) /* they come in order */
                 j++;
-            assert_true(j < t->bodies.n);
+            assert_true(j < t->matter.n);
         }
     }
     assert_true(found - within < SPH_LANES);
@@ -396,11 +396,11 @@ static void look_at_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint
     const sph_real *own = sph_columns_of(sim, t, SPH_COLUMN_spare);
     const sph_real *home = sph_home_columns_of(sim, t, SPH_COLUMN_spare);
     assert_int_equal(role, SPH_ROLE_FLUID);
-    for (uint32_t j = 0; j < t->bodies.n + SPH_LANES; j++) {
-        const bool is = j < t->bodies.n; /* behind the last there is nothing, and that is finite */
+    for (uint32_t j = 0; j < t->matter.n + SPH_LANES; j++) {
+        const bool is = j < t->matter.n; /* behind the last there is nothing, and that is finite */
         if (!SPH_SIFTS)
-            close_to((double)own[j], is ? (double)t->bodies.x[0][j] : 0, 0);
-        close_to((double)own[SPH_TILE_ROOM + j], is ? (double)t->bodies.v[0][j] : 0, 0);
+            close_to((double)own[j], is ? (double)t->matter.x[0][j] : 0, 0);
+        close_to((double)own[SPH_TILE_ROOM + j], is ? (double)t->matter.v[0][j] : 0, 0);
     }
     for (uint32_t h = 0; h < homes; h++) {
         close_to((double)home[h], (double)t->home.x[0][h], 0);
@@ -410,7 +410,7 @@ static void look_at_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint
     for (uint32_t h = 0; h < homes; h++)
         look_at_neighbours(sim, t, h, own);
 #endif
-    seen.candidates += t->bodies.n;
+    seen.candidates += t->matter.n;
 }
 static void count_home(sph_sim *sim, sph_thread *t, uint32_t h)
 {
@@ -441,7 +441,7 @@ static void a_column_set_is_a_line_and_its_loader(void **state)
 {
     (void)state;
     sph_sim *sim = run_block(SPH_PREDICTOR_CORRECTOR, 1e-3, 20);
-    const sph_sweep w = {any_home, SPH_BODIES, 1, false, 1u << SPH_COLUMN_spare, look_at_tile, count_home, 0, 0};
+    const sph_sweep w = {any_home, SPH_MATTER, 1, false, 1u << SPH_COLUMN_spare, look_at_tile, count_home, 0, 0};
     memset(&seen, 0, sizeof seen);
     for (uint32_t chunk = 0; chunk < sph_sweep_chunks(sim); chunk++)
         sph_sweep_chunk(sim, &w, chunk, sim->thread);

@@ -27,10 +27,20 @@
     X(chamber)                                                                                              \
     X(block)                                                                                                \
     X(caldera)                                                                                              \
+    X(solitary)                                                                                             \
+    X(weir)                                                                                                 \
+    X(caldera_wave)                                                                                         \
+    X(wave_train)                                                                                           \
+    X(still_water)                                                                                          \
+    X(piston)                                                                                               \
+    X(bore)                                                                                                 \
+    X(collision)                                                                                            \
+    X(breaking)                                                                                             \
+    X(shoaling)                                                                                             \
+    X(flap)\
     X(plane_wave)                                                                                           \
     X(collapsing_square)                                                                                    \
-    X(disc)                                                                                                 \
-    X(solitary)
+    X(disc)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \
