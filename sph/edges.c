@@ -29,7 +29,7 @@
    ahead; z, w, u and v by the implicit midpoint rule, once a step at its end. This and the edge's exponential make a
    symmetric splitting but for half a step at a run's beginning and end (as in sponge.c): of second order.
 
-   Arrays: edge_mark, edge_line, edge_place, layer, absorbing, taken; fields strain_memory, stress_memory, way_memory.
+   Arrays: edge_mark, edge_line, edge_place, layer, absorbing, let_out; fields strain_memory, stress_memory, way_memory.
    Cost: local passes; of what has a matched layer DIM + 1 exponentials a particle of the layer. */
 #include "marks.h"
 #include "arithmetic.h"
@@ -305,14 +305,14 @@ static void layer_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
                 lost += damp(b, i, k, (double)m->velocity[k], d, sph_layer_shift(sim, s), sim->dt);
         sum += s->mass * lost;
     }
-    sim->taken[chunk] = sum;
+    sim->let_out[chunk] = sum;
     t->work += span.last - span.first;
 }
 static sph_status add_taken(sph_sim *sim, uint32_t chunks)
 {
     double sum = 0;
     for (uint32_t chunk = 0; chunk < chunks; chunk++)
-        sum += sim->taken[chunk];
+        sum += sim->let_out[chunk];
     sim->next.absorbed += sum;
     return SPH_OK;
 }
@@ -336,7 +336,7 @@ static bool find_line(const sph_sim *sim, const sph_edge_line *l, uint32_t *at)
 }
 
 /* the edge's traction over a step; returns the energy that the line loses, J */
-static double let_out(const sph_sim *sim, const sph_edge_line *l, const uint32_t *at)
+static double answer_line(const sph_sim *sim, const sph_edge_line *l, const uint32_t *at)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     const double *weight = sim->edge_weight[l->count - 1];
@@ -383,9 +383,9 @@ static void line_chunk(sph_sim *sim, uint32_t axis, uint32_t chunk, sph_thread *
         const sph_edge_line *l = &sim->edge_line[sim->edge_from[axis] + n];
         uint32_t at[SPH_EDGE_LINE];
         if (find_line(sim, l, at))
-            sum += let_out(sim, l, at);
+            sum += answer_line(sim, l, at);
     }
-    sim->taken[chunk] = sum;
+    sim->let_out[chunk] = sum;
     t->work += last - first;
 }
 #define SPH_LINES(name, axis)                                                                                         \
