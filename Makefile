@@ -96,7 +96,8 @@ scene_obj := $(foreach b,$(BUILDS),$(SCENES:%.c=$(BUILD)/obj/$(b)/%.o))
 tables_obj := $(BUILD)/obj/tables.o
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
-.PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-waves validate-open validate-solids coverage lint help clean tests
+.PHONY: all examples demo test golden bits knobs bench size coverage lint help clean tests
+.PHONY: validate validate-water validate-waves validate-open validate-solids validate-edges
 .PHONY: count house gates gates-quick mutants tool-test
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
@@ -497,7 +498,7 @@ atlas:
 
 validate: all
 	$(Q)$(PYTHON) tests/validate.py --tool $(BUILD)/sph
-validate-water validate-waves validate-open validate-solids: validate-%: all
+validate-water validate-waves validate-open validate-solids validate-edges: validate-%: all
 	$(Q)$(PYTHON) tests/validate_$*.py --tool $(BUILD)/sph
 
 # orders in space of flows and bars that have exact solutions
@@ -559,7 +560,7 @@ help:
 	'make slices     the longest slice on an emulated Cortex-M4F               -> $(BUILD)/slices.csv' \
 	'make baremetal  a tank at a fixed rate and a dam break in 192 KiB, on the same -> $(BUILD)/baremetal.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
-	'make validate-water, -waves, -open, -solids  a part of them' \
+	'make validate-water, -waves, -open, -solids, -edges  a part of them' \
 	'make orders            orders in space of flows and bars        -> tests/results/orders.csv' \
 	'make lab        error against cost, STUDIES="a b" or all (an hour)        -> tests/lab/*.csv' \
 	'make lab-smoke  the coarse rows of it, against the committed tables' \

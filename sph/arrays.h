@@ -43,6 +43,13 @@
     ONE(slowing, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_slows(c), "energy of damping, of chunks")       \
     ONE(evening, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_evens(c), "energy of evening, of chunks")       \
     ONE(shifted, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_shifts(c), "energy of shifting, of chunks")     \
+    /* by id */                                                                                                       \
+    ONE(edge_mark, sph_edge_mark, c->max_particles, sph_has_edges(c), "marks of edges")                               \
+    ONE(edge_place, uint32_t, c->max_particles, sph_has_edges(c), "places by id, of edges")                           \
+    ONE(edge_line, sph_edge_line, c->max_particles, sph_has_edges(c), "lines of edges")                               \
+    MANY(layer, sph_real, SPH_NL, SPH_ROOM(c), sph_is_matched(c), "stress of the matched layer")                      \
+    ONE(absorbing, sph_real, SPH_ROOM(c), sph_has_edges(c), "power that edges take")                                  \
+    ONE(let_out, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_has_edges(c), "absorbed energy, of chunks")        \
     /* SPH_PARTIALS of each chunk */                                                                                  \
     ONE(partial, double, (size_t)SPH_PARTIALS * (c->max_particles / SPH_LOCAL_CHUNK + 1), sph_keeps_books(c),         \
         "partial sums for the books")

@@ -116,6 +116,7 @@ sph_status sph_check_config(const sph_config *c, sph_grid *grid, size_t *bytes, 
         (SPH_WITH_DAMPER && (st = sph_check_damper(c, r)) != SPH_OK) ||
         (SPH_HAS_XSPH_VELOCITY && (st = sph_check_evening(c, r)) != SPH_OK) ||
         (SPH_WITH_SHIFTING && (st = sph_check_shifting(c, r)) != SPH_OK) ||
+        (SPH_HAS_EDGES && (st = sph_check_edges(c, r)) != SPH_OK) ||
         (st = check_solids(c, r)) != SPH_OK || (st = sph_make_grid(c, grid, r)) != SPH_OK)
         return st;
     if (!sph_measure_arena(c, grid, bytes))

@@ -53,6 +53,9 @@ typedef sph_int sph_pos;
     X(denergy, sph_real, 1, "W/kg", sph_has_energy(c), SPH_RATE)                                                  \
     X(filled, sph_real, 1, "1", sph_stabilises(c), SPH_CARRIED | SPH_NOT_NEGATIVE) /* S */ \
     X(slant, sph_real, SPH_DIM, "1/m", sph_stabilises(c), SPH_CARRIED | SPH_VECTOR) /* D */               \
+    X(strain_memory, sph_real, SPH_NL, "1/s", sph_is_matched(c), SPH_CARRIED) /* psi, r and q, z w u of edges.c */   \
+    X(stress_memory, sph_real, SPH_NT * (SPH_DIM > 2 ? 2 : 1), "Pa s", sph_is_matched(c), SPH_CARRIED)             \
+    X(way_memory, sph_real, SPH_NL, "m", sph_is_matched(c), SPH_CARRIED)                                          \
     X(id, uint32_t, 1, "1", true, SPH_PLACED) /* until a stage settles: an index into src */              \
     X(set, uint8_t, 1, "1", true, SPH_PLACED)                                                                     \
     SPH_EXTRA_FIELDS(X)

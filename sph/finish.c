@@ -6,6 +6,7 @@
 
 #include "boundary.h"
 #include "energy.h"
+#include "marks.h"
 #include "quadrature.h"
 #include "shift_sums.h"
 #include "stress.h"
@@ -98,6 +99,20 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
         finish_powers(sim, t, h, body_power);
 }
 
+/* edges that let waves out */
+static void finish_edges(const sph_sim *sim, const sph_thread *t, uint32_t h, sph_real *acc)
+{
+    const sph_set *set = &sim->set[t->home_set[h]];
+    sph_real raw[SPH_NL], l[SPH_DIM][SPH_DIM] = {{0}}, v[SPH_DIM];
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        v[k] = t->home.v[k][h];
+    if (sph_replaces(&sim->cfg)) {
+        raw_gradient(sim, t, h, raw);
+        sph_velocity_gradient(sim, t->home_at[h], raw, t->home.rho[h], sph_corrects(&sim->cfg), l);
+    }
+    sph_edge_force(sim, set, t->home_at[h], (const sph_real(*)[SPH_DIM])l, v, acc);
+}
+
 /* along the axes on which a set is held it feels no force; what moves it does work against it (and on its inertia) */
 static void apply_constraint(sph_sim *sim, const sph_set *set, uint32_t i, sph_real *acc)
 {
@@ -140,9 +155,14 @@ static sph_real finish_rates(const sph_sim *sim, const sph_thread *t, uint32_t h
     if (f->rate_by_density)
         d *= t->home.rho[h];
     if (sph_has_solids(&sim->cfg)) {
-        sph_real raw[SPH_NL];
+        const uint32_t i = t->home_at[h];
+        const bool solid = sph_is_solid(set);
+        sph_real raw[SPH_NL], l[SPH_DIM][SPH_DIM];
         raw_gradient(sim, t, h, raw);
-        d += sph_stress_rates(sim, set, t->home_at[h], raw, t->home.rho[h]) * t->home.rho[h] * set->inv_rho0_r;
+        sph_velocity_gradient(sim, i, raw, t->home.rho[h], sph_corrects(&sim->cfg) && solid, l);
+        if (SPH_HAS_EDGES && solid && sph_is_matched(&sim->cfg))
+            sph_match_gradient(sim, set, i, l);
+        d += sph_stress_rates(sim, set, i, (const sph_real(*)[SPH_DIM])l) * t->home.rho[h] * set->inv_rho0_r;
     }
     if (sph_has_energy(&sim->cfg) && sph_is_matter(set))
         sph_finish_energy(sim, t, h, d);
@@ -162,6 +182,8 @@ SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
         acc[k] = f->gravity[k] - v_fold(t->sum[SUM_ACC + k][h]) * f->slope;
     if ((SPH_HAS_EXTRAS && f->extras) || (SPH_HAS_FORCE_WALLS && sim->has_force_wall))
         finish_extras(sim, t, h, acc);
+    if (SPH_HAS_EDGES && sph_has_edges(&sim->cfg) && sph_is_solid(set))
+        finish_edges(sim, t, h, acc);
     if (SPH_HAS_HELD && sph_held(sim, set))
         apply_constraint(sim, set, i, acc);
     if (sph_flow_of(sim, set))

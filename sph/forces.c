@@ -181,7 +181,8 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
     const uint32_t rates = SUM_MASK(DRHO) | gradient | heat;
     const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
                             (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS) : 0) |
-                            (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0);
+                            (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0) |
+                            (c->edge ? gradient : 0);
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
 }
 
@@ -550,6 +551,7 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .hourglass = forces && sph_resists_hourglass(c),
                          .shifting = forces && sph_shifts(c),
                          .shear = viscous && sph_shears(c),
+                         .edge = forces && sph_replaces(c),
                          .energy = sph_has_energy(c)};
 }
 

@@ -275,13 +275,22 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
         MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping_end), MODULE(SPH_WITH_SPONGE, sph_pass_sponge),             \
         MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
 
+/* edges that let waves out: the stress of a matched layer before the forces; after a step, its damping and the lines
+   that end there */
+#define LAYER MODULE(SPH_HAS_EDGES, sph_pass_layer_stress)
+#define EDGES                                                                                                      \
+    MODULE(SPH_HAS_EDGES, sph_pass_layer), MODULE(SPH_HAS_EDGES, sph_pass_lines_x),                                \
+        MODULE(SPH_HAS_EDGES && SPH_DIM > 1, sph_pass_lines_y),                                                    \
+        MODULE(SPH_HAS_EDGES && SPH_DIM > 2, sph_pass_lines_z)
+
 typedef const sph_pass *const list[];
 #define WEIGHTS                                                                                                    \
     MODULE(SPH_HAS_QUADRATURE, sph_pass_cover), MODULE(SPH_HAS_QUADRATURE, sph_pass_quadrature),                   \
         MODULE(SPH_HAS_STABILISED, sph_pass_edge)
-static list first_forces = {&pass_begin, SORT, WEIGHTS, QUIET, DENSITIES, FORCES, &pass_prime};
+static list first_forces = {&pass_begin, SORT, WEIGHTS, QUIET, DENSITIES, LAYER, FORCES, &pass_prime};
 static list predictor_corrector = {BEGIN, SORT, QUIET, DENSITIES, FORCES, END(pass_correct)};
-static list kick_drift_kick = {BEGIN, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_kick)};
+static list kick_drift_kick = {BEGIN,     SORT,  FORCES, &pass_density,  QUIET,
+                               DENSITIES, LAYER, FORCES, END(pass_kick), EDGES};
 static list leap_frog = {BEGIN, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {BEGIN,              SORT, DENSITIES, FORCES, &pass_settle,
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),

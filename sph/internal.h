@@ -68,6 +68,24 @@ typedef struct sph_material {
     bool flat;
 } sph_material;
 
+/* what a particle is told of the edges that let waves out (outline.c, edges.c), by id */
+typedef struct sph_edge_mark {
+    sph_real normal[SPH_DIM]; /* outward */
+    sph_real cosine;          /* H: of the angle between it and the line from the source */
+    sph_real velocity[SPH_DIM]; /* m/s, of what lies beyond */
+    sph_real damp[SPH_DIM];   /* d of the matched layer, 1/s */
+    sph_real push[SPH_DIM];   /* m/s^2, of the stress that stood at the edge at the start */
+    sph_real stress[SPH_NT];  /* Pa, that stress */
+    uint8_t level;            /* 1: outermost layer ...; 0: inside */
+    uint8_t claimed;          /* while lines are made: 1 + axis of the last that has it */
+} sph_edge_mark;
+#define SPH_EDGE_LINE 6u
+/* a line of particles from an edge inward */
+typedef struct sph_edge_line {
+    uint32_t id[SPH_EDGE_LINE], count;
+    sph_real normal[SPH_DIM];
+} sph_edge_line;
+
 /* wall sets that move or vanish together */
 typedef struct sph_group {
     sph_motion motion;
@@ -170,6 +188,8 @@ struct sph_sim {
 #define SPH_MANY_MEMBER(name, type, components, count, when, what) type *name[components];
     SPH_SCENE_ARRAYS(SPH_ONE_MEMBER, SPH_MANY_MEMBER)
     uint32_t flaws;
+    uint32_t edge_from[SPH_DIM + 1];                    /* lines along axis k: edge_from[k] .. edge_from[k + 1] */
+    double edge_weight[SPH_EDGE_LINE][SPH_EDGE_LINE];   /* A of a line of n + 1 particles */
     size_t arena_bytes, arena_used;
     /* sets */
     const struct sph_column_set *columns;    /* the table of column sets (columns.c) */
@@ -257,6 +277,7 @@ _Static_assert(SPH_KERNELS_IN != 0 && SPH_SCHEMES_IN != 0 && SPH_EOSES_IN != 0 &
      SPH_WITH_SMAGORINSKY_WICK << SPH_SMAGORINSKY_WICK)
 #define SPH_GRADIENTS_IN                                                                                    \
     (1 << SPH_PLAIN | SPH_WITH_BONET_LOK << SPH_BONET_LOK | SPH_WITH_RENORMALISED << SPH_RENORMALISED)
+#define SPH_EDGES_IN (SPH_HAS_EDGES ? (1 << SPH_EDGES) - 1 : 1 << SPH_NO_EDGE)
 #define SPH_REPULSIONS_IN                                                                                   \
     (1 << SPH_NO_ARTIFICIAL_STRESS | SPH_HAS_REPULSION << SPH_PRINCIPAL | SPH_HAS_REPULSION << SPH_COMPONENTS)
 
@@ -311,6 +332,10 @@ SPH_INLINE bool sph_stabilises(const sph_config *c) { return SPH_HAS_STABILISED 
 SPH_INLINE bool sph_normalises(const sph_config *c) { return SPH_HAS_NORMALISED && c->solid >= SPH_NORMALISED; }
 SPH_INLINE bool sph_resists_hourglass(const sph_config *c) { return SPH_HAS_HOURGLASS && c->hourglass > 0; }
 SPH_INLINE bool sph_weighs_faces(const sph_config *c) { return SPH_HAS_QUADRATURE && c->face_quadrature; }
+SPH_INLINE bool sph_has_edges(const sph_config *c) { return SPH_HAS_EDGES && c->edge != SPH_NO_EDGE; }
+SPH_INLINE bool sph_is_matched(const sph_config *c) { return sph_has_edges(c) && c->edge_width > 0; }
+/* edges that replace the acceleration */
+SPH_INLINE bool sph_replaces(const sph_config *c) { return SPH_HAS_EDGES && c->edge >= SPH_EDGE_P; }
 SPH_INLINE bool sph_shears(const sph_config *c) { return SPH_WITH_SHEAR && c->shear != SPH_NO_SHEAR; }
 SPH_INLINE bool sph_has_energy(const sph_config *c) { return SPH_WITH_ENERGY && c->energy; }
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }

@@ -75,6 +75,7 @@
     X(DAMPING_RATE, 1) /* damping by a rate in time */                                                     \
     X(XSPH_VELOCITY, SPH_WITH_XSPH) /* XSPH in the velocity itself */                                      \
     X(SHIFTING, 1) /* particle shifting */                                                                 \
+    X(EDGES, SPH_WITH_SOLID && SPH_WITH_KICK_DRIFT_KICK) /* edges that let elastic waves out */                      \
     X(BODY_FORCE, 1) /* a body force beside gravity */                                                     \
     X(BOOKS, 1) /* work and dissipation */                                                                 \
     X(OBJECT_PROBES, 1) /* every object shows that it was built soundly and like the others (arithmetic.h) */ \
@@ -128,6 +129,7 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_HAS_STABILISED (SPH_WITH_SOLID && SPH_WITH_STABILISED)
 #define SPH_HAS_NORMALISED (SPH_WITH_SOLID && SPH_WITH_NORMALISED)
 #define SPH_HAS_HOURGLASS (SPH_HAS_TOTAL && SPH_WITH_HOURGLASS)
+#define SPH_HAS_EDGES (SPH_WITH_SOLID && SPH_WITH_KICK_DRIFT_KICK && SPH_WITH_EDGES)
 #define SPH_HAS_HAT (SPH_WITH_SOLID && SPH_WITH_XSPH && SPH_WITH_XSPH_STRAIN)
 
 /* true if `choice` is SPH_<name> and that was compiled in: how the kernel asks for a choice everywhere */

@@ -24,6 +24,7 @@
 #include "damper.h"
 #include "damping.h"
 #include "evening.h"
+#include "edges.h"
 #include "shifting.h"
 #include "sponge.h"
 /* larger magnitudes are refused: squares of them must stay finite in a float's range */
@@ -158,6 +159,7 @@
       "SPH_TOTAL: strength of the control of hourglass modes; 0: none")                                               \
     O(A, max_stretch, REAL, 1.25, 1, 8, true, "1 .. 8", FIXED, "-",                                                   \
       "SPH_TOTAL: how far a bond may be drawn, in supports; cells grow with it")                                      \
+    SPH_EDGE_OPTIONS(O, P, A)                                                                                         \
     SPH_SHIFTING_OPTIONS(O, P, A)                                                                                     \
     SPH_FLOW_OPTIONS(O, P, A)                                                                                         \
     SPH_SPONGE_OPTIONS(O, P, A)                                                                                       \

@@ -264,6 +264,27 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
    step of damping ahead. What it takes is `absorbed` in sph_totals, with or without books. SPH_ARENA_BYTES: or in
    SPH_USE_BOOKS. Waves want layers of a wavelength or more, and rate width/c about 10 (tests/lab/atlas_sponge.csv). */
 
+/* Edges of solids that elastic waves leave through (with KICK_DRIFT_KICK; edges.c has the equations). sph_find_edges
+   says where they are. NATURAL: a traction that answers the velocity of the edge, on lines of particles: it cannot add
+   energy, needs no memory, and reflects 3 % of waves at right angles, more the flatter they come in. VISCOUS: the same
+   on the outermost particles alone (Powell 2012 eq 2.75). edge_width > 0: a matched layer of that thickness before such
+   an edge, along axes, which reflects below 1 % of P and S waves up to 60 degrees at 10 spacings. P, M, H: Powell 2012
+   eqs 2.42, 2.45, 2.33 in place of the momentum equation in edge_layers layers; as printed too; they may grow without
+   bound. What the edges take is `absorbed` in sph_totals, with or without books; by P, M, H and matched layers to the
+   first order in dt. The stress that stands when the edges are found is held, so static loads do not creep.
+   SPH_ARENA_BYTES: or in SPH_USE_EDGES. */
+enum {
+    SPH_NO_EDGE,
+    SPH_EDGE_NATURAL,
+    SPH_EDGE_VISCOUS,
+    SPH_EDGE_P,
+    SPH_EDGE_M,
+    SPH_EDGE_M_PRINTED,
+    SPH_EDGE_H,
+    SPH_EDGE_H_PRINTED,
+    SPH_EDGES
+};
+
 /* Particle shifting, `shifting` its strength C, 0: off: at a step's end each particle of fluid drifts from where
    others are dense to where they are sparse, -C dt v_max 4h sum V_j [1 + 0.2 (W/W(dx))^4] grad W, at most 0.05 dx; not
    near a surface (Lind, Xu, Stansby & Rogers 2012; shifting.c). V is m/rho, but in weak schemes at most 2 m/rho0. It
@@ -372,6 +393,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_DAMPER 8192u
 #define SPH_USE_FLOW 16384u /* max_flows > 0 */
 #define SPH_USE_ENERGY 32768u /* the energy equation */
+#define SPH_USE_EDGES 65536u /* edges that let waves out, with a matched layer or without */
 #define SPH_USE_FORMS 131072u /* SPH_STABILISED, SPH_NORMALISED, SPH_NORMALISED_CORRECTED, or hourglass */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
@@ -394,7 +416,12 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FORMS) ? (SPH_DIM * SPH_DIM + SPH_DIM + 2u) * SPH_REAL_ : 0u) +                        \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
      (((use)&SPH_USE_DAMPER) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_FLOW) ? 2u : 0u) +                         \
+     (((use)&SPH_USE_EDGES) ? SPH_EDGE_BYTES_ : 0u) +                                                       \
      (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
+#define SPH_EDGE_TENSOR_ (SPH_DIM * (SPH_DIM + 1u) / 2u)
+#define SPH_EDGE_BYTES_ /* marks, lines, places; memory of the matched layer; its stress, what is absorbed */ \
+    (((5u + 6u) * SPH_DIM + SPH_EDGE_TENSOR_ + 1u) * SPH_REAL_ + 48u +                                       \
+     (5u * SPH_DIM * SPH_DIM + 4u * SPH_EDGE_TENSOR_ + 1u) * SPH_REAL_)
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
 /* sums of a velocity gradient, or of shifting */
 #define SPH_TENSOR_SUMS_                                                                                    \
@@ -420,7 +447,8 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FLOW) ? 2048u : 0u) +                                                                  \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
-         (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING | SPH_USE_DAMPER)) ? 64u : 0u))
+         (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING | SPH_USE_DAMPER | SPH_USE_EDGES)) ? 64u : 0u) +       \
+     (((use)&SPH_USE_EDGES) ? 8192u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
 #ifdef __cplusplus
 #define SPH_ARENA(name, bytes) unsigned char name alignas(SPH_ALIGN)[bytes]
@@ -562,6 +590,29 @@ sph_status sph_add_flaws(sph_sim *sim, uint32_t set, const sph_flaws *flaws);
 #define sph_get_flaws SPH_NAME(get_flaws)
 sph_status sph_get_flaws(const sph_sim *sim, uint32_t id, uint32_t *count, float *threshold);
 #endif
+
+/* Finds the edges that waves leave through (`edge` of the configuration), once all solids are there with their
+   velocities and stresses, before the first step. Call it again to find them anew. `faces`, an or of SPH_LOW(axis),
+   SPH_HIGH(axis): the edges are those planes of the box around all solids. 0: wherever the solids end: particles are
+   found layer by layer by e = sum V grad W, which is 0 inside (Powell 2012 eqs 2.50-2.53, algorithms 2.1, 2.2, at most
+   floor(support/spacing) + 1 rounds): the layer that |e| > 0.75 max |e| shows (3-D: 0.6), with normals -e/|e|, is taken
+   away for the next. `given`: layers and normals are as sph_set_edge gave them, after an earlier call; lines of the
+   natural edge start at layer 1. */
+typedef struct sph_edges {
+    uint32_t faces;
+    bool given;
+    double velocity[SPH_DIM]; /* m/s, NATURAL, VISCOUS, matched layers: of what lies beyond */
+    bool as_now;              /* instead of it, the velocities of now */
+    double source[SPH_DIM];   /* m, H: where waves come from */
+} sph_edges;
+#define sph_find_edges SPH_NAME(find_edges)
+sph_status sph_find_edges(sph_sim *sim, const sph_edges *edges); /* null: wherever the solids end */
+/* Layer of a particle, 1 the outermost, 0 none, and its outward normal (its length does not matter); to set: after
+   sph_find_edges, before the first step. */
+#define sph_set_edge SPH_NAME(set_edge)
+sph_status sph_set_edge(sph_sim *sim, uint32_t id, uint32_t level, const double *normal);
+#define sph_get_edge SPH_NAME(get_edge)
+sph_status sph_get_edge(const sph_sim *sim, uint32_t id, uint32_t *level, double *normal);
 
 /* One particle: position x (m), velocity v (m/s, null: 0), density rho (kg/m^3, 0: rho0). Ids count from 0 in the
    order of adding. id may be null. */
@@ -835,7 +886,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
    the state, its digest and dumps follow from the list. `c`: the configuration. The first six are kept in every
    scene, the others where the scene asks for books. */
 #define SPH_BOOKS(X)                                                                                                  \
-    X(absorbed, "J", SPH_WITH_SPONGE && c->sponge_rate > 0, "kinetic energy that sponge layers took")                 \
+    X(absorbed, "J", (SPH_WITH_SPONGE && c->sponge_rate > 0) || (SPH_HAS_EDGES && c->edge != SPH_NO_EDGE),            \
+      "energy that sponge layers and edges took")                                                                     \
     X(shifted, "J", SPH_WITH_SHIFTING && c->shifting > 0, "energy that shifting took; < 0: gave")                     \
     X(quieted, "J", SPH_WITH_DAMPER && c->damper > 0, "energy that the acoustic damper took")                         \
     X(slowed, "J", SPH_WITH_DAMPING_RATE && c->damping_rate > 0, "kinetic energy that damping_rate took")             \

@@ -76,6 +76,17 @@ SPH_INLINE void stress_at(const sph_candidates *r, uint32_t i, vreal excess, vre
         s[k] = s[k] - p;
 }
 
+/* sigma as a full tensor, with what a matched layer adds (edges.c) */
+SPH_INLINE void full_stress(const sph_candidates *r, uint32_t i, const vreal *s, vreal *full)
+{
+    const bool matched = SPH_HAS_EDGES && r->sim->layer[0];
+    SPH_UNROLL_MANY
+    for (uint32_t k = 0; k < SPH_NL; k++)
+        full[k] = s[sph_sym[k / SPH_DIM][k % SPH_DIM]];
+    for (uint32_t k = 0; matched && k < SPH_NL; k++)
+        full[k] = full[k] + v_load(r->sim->layer[k] + i);
+}
+
 /* T with corrected gradients: -sigma M^-T over rho (standard) or 1 (weak) */
 SPH_INLINE void corrected_stress(const sph_candidates *r, uint32_t i, vreal rho, const vreal *s, vreal *t)
 {
@@ -85,7 +96,7 @@ SPH_INLINE void corrected_stress(const sph_candidates *r, uint32_t i, vreal rho,
             vreal sum = v_set(0);
             for (int m = 0; m < SPH_DIM; m++) { /* the index that is summed turns as both: 1 but in no-slip images */
                 const sph_real turn = r->im->flip[m] * (sph_real)r->im->sign[m];
-                sum = sum + s[sph_sym[k][m]] * (turn * v_load(r->sim->corr[l * SPH_DIM + m] + i));
+                sum = sum + s[k * SPH_DIM + m] * (turn * v_load(r->sim->corr[l * SPH_DIM + m] + i));
             }
             t[k * SPH_DIM + l] = sum * scale;
         }
@@ -119,16 +130,17 @@ void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row)
     for (uint32_t j = 0; j < r->n; j += SPH_W) {
         const uint32_t i = r->first + j;
         const vreal e = v_load(r->b->rho[0] + i), rho = (1 + e) * r->set->rho0_r;
-        vreal s[SPH_NT], t[SPH_NL];
+        vreal s[SPH_NT], full[SPH_NL], t[SPH_NL];
         stress_at(r, i, e, s);
+        full_stress(r, i, s, full);
         const vreal w = weak ? v_set(1) : 1 / (rho * rho);
         if (sph_repels(c))
             load_repulsion(r, s, w, to + j, row);
         SPH_UNROLL_MANY
         for (uint32_t k = 0; k < SPH_NL; k++)
-            t[k] = -(s[sph_sym[k / SPH_DIM][k % SPH_DIM]] * w);
+            t[k] = -(full[k] * w);
         if (corrects)
-            corrected_stress(r, i, rho, s, t);
+            corrected_stress(r, i, rho, full, t);
         if (SPH_HAS_QUADRATURE && r->b->quadrature[0])
             weigh(sph_quadrature_at(r->b, i), t);
         if (!SPH_HAS_IMAGES || !r->im->is_image) {
@@ -181,9 +193,8 @@ static void jaumann(const sph_real (*l)[SPH_DIM], const sph_real (*s)[SPH_DIM], 
         }
 }
 
-/* L of a home from its sums (raw), with corrected gradients or without */
-static void velocity_gradient(const sph_sim *sim, uint32_t i, const sph_real *raw, sph_real rho, bool corrects,
-                              sph_real (*l)[SPH_DIM])
+void sph_velocity_gradient(const sph_sim *sim, uint32_t i, const sph_real *raw, sph_real rho, bool corrects,
+                           sph_real (*l)[SPH_DIM])
 {
     const bool weak = sph_weak_scheme(sim->cfg.scheme) || sph_normalises(&sim->cfg); /* by volumes */
     for (uint32_t k = 0; k < SPH_DIM; k++)
@@ -198,16 +209,14 @@ static void velocity_gradient(const sph_sim *sim, uint32_t i, const sph_real *ra
         }
 }
 
-sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho)
+sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real (*l)[SPH_DIM])
 {
     const sph_buffer *b = &sim->buf[sim->dst];
-    const bool solid = sph_is_solid(set);
-    sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM], trace = 0;
-    velocity_gradient(sim, i, raw, rho, sph_corrects(&sim->cfg) && solid, l);
-    if (solid) {
+    sph_real s[SPH_DIM][SPH_DIM], rate[SPH_DIM][SPH_DIM], trace = 0;
+    if (sph_is_solid(set)) {
         const sph_real mu = sph_material_of(sim, set)->shear_r;
         tensor_of(b, i, s);
-        jaumann((const sph_real(*)[SPH_DIM])l, (const sph_real(*)[SPH_DIM])s, mu, rate);
+        jaumann(l, (const sph_real(*)[SPH_DIM])s, mu, rate);
         for (uint32_t k = 0; k < SPH_NS; k++)
             b->dstress[k][i] = rate[kept_at[k][0]][kept_at[k][1]];
     }
@@ -222,7 +231,7 @@ sph_real sph_stress_surplus(const sph_sim *sim, const sph_set *set, uint32_t i, 
     sph_real l[SPH_DIM][SPH_DIM], s[SPH_DIM][SPH_DIM], power = 0; /* S has no trace: S:e = S:L */
     if (!(sph_material_of(sim, set)->shear_r > 0)) /* then there is no energy of S */
         return 0;
-    velocity_gradient(sim, i, raw, rho, sph_corrects(&sim->cfg), l);
+    sph_velocity_gradient(sim, i, raw, rho, sph_corrects(&sim->cfg), l);
     tensor_of(b, i, s);
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t c = 0; c < SPH_DIM; c++)

@@ -32,9 +32,15 @@ SPH_INLINE const sph_stress_homes *sph_stress_homes_of(const sph_sim *sim, const
 }
 #define sph_load_stress SPH_NAME(load_stress_)
 void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row);
-/* stress.c: dS/dt of home i from its sums, and -tr L; raw: sum m_j v_ij (x) K g without the kernel's scale */
+/* stress.c: L of a home from its sums, with corrected gradients or without; raw: sum m_j v_ij (x) K g without the
+   kernel's scale */
+#define sph_velocity_gradient SPH_NAME(velocity_gradient_)
+void sph_velocity_gradient(const sph_sim *sim, uint32_t i, const sph_real *raw, sph_real rho, bool corrects,
+                           sph_real (*l)[SPH_DIM]);
+
+/* stress.c: dS/dt of home i in a velocity gradient L, and -tr L */
 #define sph_stress_rates SPH_NAME(stress_rates_)
-sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real *raw, sph_real rho);
+sph_real sph_stress_rates(const sph_sim *sim, const sph_set *set, uint32_t i, const sph_real (*l)[SPH_DIM]);
 
 /* books: by how much more the elastic energy S:S/(4 mu) of a unit of rest volume rises than forces give, W/kg:
    S:e/rho0 - S:e/rho */
@@ -165,7 +171,7 @@ SPH_INLINE void sph_stress_force(const sph_choice *c, const sph_factors *f, cons
     for (int k = 0; k < SPH_DIM; k++) {
         if (sph_takes_forces(c))
             sph_stress_push(c, h, t, p, k, fn, w, s);
-        if (!sph_takes_rates(c) && !(SPH_WITH_BOOKS && c->books)) /* books ask for the gradient too */
+        if (!sph_takes_rates(c) && !(SPH_WITH_BOOKS && c->books) && !c->edge) /* those ask for the gradient too */
             continue;
         vreal d = p->dv[k];
         if (c->hat)

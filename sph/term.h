@@ -56,7 +56,8 @@ typedef struct sph_choice {
     uint8_t energy;            /* the energy equation */
     uint8_t form;              /* solids: SPH_STABILISED, SPH_NORMALISED (or corrected), else 0 */
     uint8_t hourglass;         /* control of hourglass modes */
-    uint8_t spare[2];
+    uint8_t edge;              /* edges that want the velocity gradient with the forces */
+    uint8_t spare[1];
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 24, "sph_choice is compared as three words (forces.c)");
 SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }

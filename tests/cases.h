@@ -30,6 +30,7 @@ typedef struct bits_case {
     bool bed;                             /* walls by a polyline: a box in 1-D and 3-D */
     uint32_t motion;                      /* of a wall that moves: CASE_... */
     bool energy;
+    uint32_t edge, layer;                 /* SPH_EDGE_...; thickness of the matched layer, spacings */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -222,6 +223,16 @@ static const bits_case bits_cases[] = {
      .integrator = SPH_KICK_DRIFT_KICK},
     {"heat_of_morris", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .slip_less = true,
      .compressible = true, .energy = true, .gradient = SPH_BONET_LOK},
+    /* edges that let waves out */
+#define CASE_EDGE .kernel = SPH_CUBIC, .wall = CASE_NO_WALL, .integrator = SPH_KICK_DRIFT_KICK
+    {"edge_natural", CASE_EDGE, .solid = SPH_TOTAL, .edge = SPH_EDGE_NATURAL, .books = true},
+    {"edge_viscous_symmetry", CASE_EDGE, .solid = SPH_CORRECTED, .edge = SPH_EDGE_VISCOUS, .face = SPH_SYMMETRY},
+    {"edge_matched", CASE_EDGE, .solid = SPH_TOTAL, .edge = SPH_EDGE_NATURAL, .layer = 3, .books = true},
+    {"edge_matched_corrected", CASE_EDGE, .solid = SPH_CORRECTED, .edge = SPH_EDGE_VISCOUS, .layer = 2,
+     .viscosity = SPH_ARTIFICIAL},
+    {"edge_p", CASE_EDGE, .solid = SPH_UPDATED, .edge = SPH_EDGE_P, .books = true},
+    {"edge_m", CASE_EDGE, .solid = SPH_TOTAL, .edge = SPH_EDGE_M},
+    {"edge_h", CASE_EDGE, .solid = SPH_CORRECTED, .edge = SPH_EDGE_H, .viscosity = SPH_ARTIFICIAL},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -340,6 +351,10 @@ static sph_config case_config(const bits_case *b)
     c.damping_rate = b->slowed ? 30 : 0;
     c.xsph_velocity = b->evened;
     c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
+    c.edge = b->edge;
+    c.edge_width = b->layer * CASE_DX;
+    if (b->edge) /* they have no walls, and marks, lines, memory instead */
+        c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 1600 : 520;
     return c;
 }
 
@@ -482,6 +497,12 @@ static sph_status case_build(sph_sim *sim, const bits_case *b)
 #endif
     if (!st && b->flow)
         st = case_flow(sim, set);
+#if SPH_HAS_EDGES
+    sph_edges edges = {.faces = b->layer ? SPH_LOW(0) | SPH_HIGH(SPH_DIM - 1) : 0, .velocity = {0.01}};
+    edges.source[0] = -1;
+    if (!st && b->edge)
+        st = sph_find_edges(sim, &edges);
+#endif
     if (!st && b->wall != CASE_NO_WALL)
         st = case_walls(sim, b);
     return st;

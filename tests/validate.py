@@ -9,9 +9,9 @@ misses it.
 """
 import sys
 
-import validate_solids, validate_water, validate_waves
+import validate_edges, validate_solids, validate_water, validate_waves
 from validation import main
 
 if __name__ == "__main__":
-    parts = (validate_water, validate_waves, validate_solids)
+    parts = (validate_water, validate_waves, validate_solids, validate_edges)
     sys.exit(main(lambda quick: [row for part in parts for row in part.cases(quick)], "validate", __doc__))

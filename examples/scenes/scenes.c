@@ -4,7 +4,7 @@
 
 /* the one table of scenes: a line here and a file of that name */
 #if SPH_DIM == 1
-#define SCENE_LIST(X) X(hydrostatic) X(sod)
+#define SCENE_LIST(X) X(hydrostatic) X(sod) X(bar)
 #elif SPH_DIM == 2
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break)                                                                                            \
@@ -43,7 +43,10 @@
     X(collision)                                                                                            \
     X(breaking)                                                                                             \
     X(shoaling)                                                                                             \
-    X(flap)
+    X(flap)\
+    X(plane_wave)                                                                                           \
+    X(collapsing_square)                                                                                    \
+    X(disc)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \

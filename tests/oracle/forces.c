@@ -97,6 +97,9 @@ static void end(const o_scene *s, o_particle *i)
         o_plus(&i->a[k], s->cfg.gravity[k]);
         o_add(&i->a[k], own[k], size[k]);
         o_add(&i->pushed, own[k] * i->v[k], size[k] * fabs(i->v[k]));
+    }
+    o_edges(s, i);
+    for (int k = 0; k < SPH_DIM; k++) {
         if (set->role != SPH_ROLE_SOLID || !(set->held >> k & 1))
             continue;
         o_add(&i->worked, -i->a[k].v * set->velocity[k], i->a[k].s * fabs(set->velocity[k]));

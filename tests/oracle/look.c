@@ -119,6 +119,20 @@ uint32_t look_flaws(const sph_sim *sim, uint32_t id, float *threshold)
 }
 #endif
 
+/* layers before edges, as edges.c makes them up */
+static sph_status add_edges(sph_sim *sim, const plan *p)
+{
+    const sph_edges edges = {.given = true};
+    sph_status st = SPH_OK;
+    for (uint32_t i = 0; !st && i < p->points && p->cfg.edge; i++) {
+        double n[3];
+        const uint32_t level = o_edge_mark(i, n);
+        if (p->point[i].set >= p->fluids)
+            st = sph_set_edge(sim, i, level, n);
+    }
+    return st || !p->cfg.edge ? st : sph_find_edges(sim, &edges);
+}
+
 sph_sim *look_build(const plan *p, sph_report *why)
 {
     uint32_t set[2 * PLAN_SETS];
@@ -128,6 +142,7 @@ sph_sim *look_build(const plan *p, sph_report *why)
     sph_status st = add_sets(sim, p, set);
     st = st ? st : add_points(sim, p, set);
     st = st ? st : add_flaws(sim, p, set);
+    st = st ? st : add_edges(sim, p);
     for (uint32_t k = 0; !st && k < p->walls; k++)
         st = add_wall(sim, &p->wall[k], &tables[k]);
     const sph_buffer *b = &sim->buf[sim->cur];

@@ -215,6 +215,9 @@ double o_inverse(o_scene *s, const double (*e)[3], double terms, double (*inv)[3
 void o_stresses(o_scene *s);                                                               /* stress.c */
 void o_stress_force(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);
 void o_strain_rates(const o_scene *s, o_particle *i);
+double o_velocity_gradient(const o_scene *s, const o_particle *i, double (*l)[3]); /* L, and its scale */
+uint32_t o_edge_mark(uint32_t id, double *normal);   /* edges.c: layer that a plan puts a solid particle into */
+void o_edges(const o_scene *s, o_particle *i);       /* P, M, H */
 void o_contact(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);     /* contact.c */
 void o_tensile_part(o_scene *s, const double (*sigma)[3], bool principal, double (*r)[3]); /* principal.c */
 double o_largest_principal(const double (*sigma)[3], bool plane);

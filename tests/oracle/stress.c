@@ -114,8 +114,7 @@ void o_stress_force(const o_scene *s, o_particle *i, const o_particle *j, const 
             o_add(&i->gradient[k][l], c * v[k] * p->k[l] * p->g, c * fabs(v[k]) * p->slope);
 }
 
-/* L of a particle, and its scale */
-static double gradient_of(const o_scene *s, const o_particle *i, double (*l)[3])
+double o_velocity_gradient(const o_scene *s, const o_particle *i, double (*l)[3])
 {
     const bool corrected = o_corrects(s) && o_is_solid(s, i);
     const double plain = o_is_weak(s) || o_normalises(s) ? 1 : 1 / i->rho;
@@ -132,7 +131,7 @@ static double gradient_of(const o_scene *s, const o_particle *i, double (*l)[3])
 void o_strain_rates(const o_scene *s, o_particle *i)
 {
     double l[3][3] = {{0}}, trace = 0;
-    const double scale = gradient_of(s, i, l), mu = s->set[i->set].shear;
+    const double scale = o_velocity_gradient(s, i, l), mu = s->set[i->set].shear;
     for (int k = 0; k < SPH_DIM; k++)
         trace += l[k][k];
     o_add(&i->rate, -i->rho * trace, i->rho * scale);

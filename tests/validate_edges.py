@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT. Copyright the sph authors.
+"""validate_edges.py: runs the cases of edges that let elastic waves out (Powell 2012) and holds them against closed
+forms, finite elements and his figures.
+
+usage: validate_edges.py [--quick] [--jobs N] [--only WORD] [--keep] [--tool build/sph]
+Writes build/validate_edges.csv (name,value,unit,target,ok) and prints the same as a table; validation.py says more.
+Exit code 1 if a row with a target misses it. GROUPS is the list of cases.
+"""
+import cmath, math, sys
+
+from validation import interpolate, main, read_table, Run
+
+EDGES = {"natural": dict(edge="natural", layer=0), "viscous": dict(edge="viscous", layer=0),
+         "P": dict(edge="p", layer=0), "M": dict(edge="m", layer=0), "M printed": dict(edge="m_printed", layer=0),
+         "H": dict(edge="h", layer=0), "matched 10": dict(edge="natural", layer=10),
+         "matched 20": dict(edge="natural", layer=20, reflection=1e-3)}
+MU = 6 / 13  # K, of E 2.1, nu 0.3
+CP, CS = math.sqrt(1 + 4 * MU / 3), math.sqrt(MU)
+
+
+# ---- reflection of plane waves ----
+
+def wave(kind, sign, trace):
+    """Wave vector over the frequency and polarisation of a P or S wave of one trace that goes along sign x."""
+    c = CP if kind == "p" else CS
+    kx = sign * cmath.sqrt(1 / c ** 2 - trace ** 2)
+    k = (kx, trace)
+    d = (k[0] * c, k[1] * c)
+    return k, d if kind == "p" else (-d[1], d[0])
+
+
+def residual(edge, k, d, angle):
+    """What the edge's condition leaves of a wave v = d exp(i w (k.x - t)), over -i w; edge at its right."""
+    def row(p, s):
+        return [d[0] * (1 - p * k[0]), d[1] * (1 - s * k[0])]
+    if edge in ("natural", "viscous"):  # sigma.n + rho c v = 0; sigma of the displacement i v/w
+        lam = 1 - 2 * MU / 3
+        sxx = -(lam * (k[0] * d[0] + k[1] * d[1]) + 2 * MU * k[0] * d[0])
+        sxy = -MU * (k[0] * d[1] + k[1] * d[0])
+        return [sxx + CP * d[0], sxy + CS * d[1]]
+    if edge == "H":
+        return row(CP / math.cos(angle), CP / math.cos(angle))
+    out = row(CP, CS)
+    if edge == "M":
+        out[0] -= (CP - CS) * k[1] * d[1]
+        out[1] -= (CP - CS) * k[1] * d[0]
+    if edge == "M printed":  # t = (0, -1): a += (c_p - c_s) [(Lt.n) n - (Lt.t) t]
+        out[0] -= (CP - CS) * k[1] * d[0]
+        out[1] += (CP - CS) * k[1] * d[1]
+    return out
+
+
+def theory(edge, kind, degrees):
+    """Amplitudes of the P and S waves that come back (Powell 2012 eq 2.49)."""
+    angle = math.radians(degrees)
+    trace = math.sin(angle) / (CP if kind == "p" else CS)
+    a, p, s = (residual(edge, *wave(*w, trace), angle) for w in ((kind, 1), ("p", -1), ("s", -1)))
+    det = p[0] * s[1] - p[1] * s[0]
+    return [abs((s[0] * a[1] - s[1] * a[0]) / det), abs((p[1] * a[0] - p[0] * a[1]) / det)]
+
+
+def plane_waves(quick, add):
+    for name, options in EDGES.items():
+        for kind in "p" if quick or name in ("M printed", "H", "viscous") else "ps":
+            angles = (0, 30, 60) if quick or kind == "s" else (0, 15, 30, 45, 60, 75)
+            for angle in (a for a in angles if kind == "p" or a <= 30):
+                run = Run("plane_wave", angle=angle, wave=kind, every=1e6, **options)
+                own = name.startswith("matched")
+                head = f"plane_wave {name} {kind.upper()} {angle} degrees"
+                target = 1.0 if own and angle <= 60 else None
+                for k, back in enumerate("ps"):
+                    column = back + "_back"
+                    add(f"{head}: {back.upper()} back", "% of the amplitude", target, [run],
+                        lambda r, c=column: 100 * r.col(c)[-1])
+                    if not own:
+                        want = theory(name, kind, angle)[k]
+                        add(f"{head}: {back.upper()} back, off theory {100 * want:.1f}", "% of the amplitude", None,
+                            [run], lambda r, c=column, w=want: 100 * (r.col(c)[-1] - w))
+
+
+# ---- P2: the bar ----
+
+def bar_error(run):
+    """Mean of |v - exact|/|exact| over 3 .. 20 us, in percent (Powell's table 2.1)."""
+    if run.error:
+        raise ValueError(run.error)
+    rows = [e for t, e in zip(run.col("time_us"), run.col("error")) if t > 3]
+    return sum(rows) / len(rows)
+
+
+def bars(quick, add):
+    printed = {r["layer"]: r for r in read_table("powell_table_2_1.csv")}
+    forms = {"SPH": ("updated", "SPH"), "corrected": ("corrected", "NCSPH")}
+    for form, (option, column) in forms.items():
+        for layer in ("reference", 1, 2, 3, 4, 5):
+            target = printed[str(layer)][column]
+            options = dict(n=1300, edge="none") if layer == "reference" else dict(edge="p", layers=layer)
+            run = Run("bar", form=option, every=0.01, **options)
+            what = "X" if target == "X" else f"{100 * float(target) / 100:g}"
+            if target == "X":
+                add(f"P2 {form} P on {layer} (printed X): grows to", "% of v", (">=", 100), [run],
+                    lambda r: 1e9 if r.error else max(r.col("error")))
+            else:
+                add(f"P2 {form} P on {layer} (printed {what})", "% of v", float(target), [run], bar_error)
+        for name, more in {"natural": {}, "matched 10": dict(layer=10)}.items():
+            add(f"P2 {form} {name} (best printed {0.0726 if form != 'SPH' else 1.5015})", "% of v", None,
+                [Run("bar", form=option, every=0.01, edge="natural", **more)], bar_error)
+
+
+# ---- P3, P4: the square and the disc ----
+
+def kinetic_off(run, table, column, first=0.0, last=4.0):
+    """Largest difference of the kinetic energy to the reference, % of that at the start."""
+    if run.error:
+        raise ValueError(run.error)
+    ref = read_table(table)
+    t, k = [float(r["t_us"]) for r in ref], [float(r[column]) for r in ref]
+    off = [abs(share - interpolate(t, k, us)) for us, share in zip(run.col("time_us"), run.col("kinetic"))
+           if first <= us <= min(last, t[-1])]
+    return 100 * max(off)
+
+
+def late_kinetic(run, first):
+    if run.error:
+        raise ValueError(run.error)
+    return 100 * max(k for t, k in zip(run.col("time_us"), run.col("kinetic")) if t >= first)
+
+
+def squares(quick, add):
+    for name, options in {"P": dict(edge="p"), "M": dict(edge="m"), "H": dict(edge="h"),
+                          "natural": dict(edge="natural"),
+                          "natural margin 25": dict(edge="natural", margin=25)}.items():
+        run = Run("collapsing_square", every=0.02, duration=3, **options)
+        add(f"P3 straight {name}: kinetic energy off, after 1.2 us", "% of the start", 0.25, [run],
+            lambda r: kinetic_off(r, "powell_square.csv", "KE_EOS_J", 1.2))
+        skew = Run("collapsing_square", every=0.02, duration=4, skew=22.5, **options)
+        add(f"P3 skewed {name}: kinetic energy left after 2.5 us", "% of the start", 0.75, [skew],
+            lambda r: late_kinetic(r, 2.5))
+
+
+def discs(quick, add):
+    for speed in ("0.01",) if quick else ("0.01", "0.05"):
+        table = f"powell_disc_v{speed}.csv"
+        for name, options in {"matched 20": dict(margin=20, layer=20, reflection=1e-3),
+                              "natural": dict(margin=0, layer=0),
+                              "viscous": dict(margin=0, layer=0, edge="viscous"),
+                              "M": dict(margin=0, layer=0, edge="m"), "P": dict(margin=0, layer=0, edge="p")}.items():
+            run = Run("disc", every=0.02, speed=speed, **options)
+            add(f"P4 v0 {speed} {name}: kinetic energy off", "% of the start", None, [run],
+                lambda r, t=table: kinetic_off(r, t, "KE_EOS_J"))
+            add(f"P4 v0 {speed} {name}: kinetic energy left after 3 us", "% of the start",
+                2.0 if name.startswith("matched") else None, [run], lambda r: late_kinetic(r, 3))
+
+
+GROUPS = [plane_waves, bars, squares, discs]
+
+
+def cases(quick):
+    rows = []
+    for group in GROUPS:
+        group(quick, lambda *row: rows.append(row))
+    return rows
+
+
+if __name__ == "__main__":
+    sys.exit(main(cases, "validate_edges", __doc__))
