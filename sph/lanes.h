@@ -134,7 +134,12 @@ SPH_INLINE vint v_equal(vreal a, vreal b) { return -(vint)!(a < b || b < a); }
 SPH_INLINE vreal v_select(vint m, vreal a, vreal b) { return m ? a : b; }
 #endif
 
-/* bit l: whether a mask holds in lane l */
+/* bit l: whether a mask holds in lane l; SPH_HAS_QUICK_BITS: by one instruction */
+#if defined(__SSE2__) && SPH_W <= 8
+#define SPH_HAS_QUICK_BITS 1
+#else
+#define SPH_HAS_QUICK_BITS 0
+#endif
 #if SPH_SCALAR
 SPH_INLINE uint32_t v_bits(vint m) { return (uint32_t)m & 1; }
 #elif defined(__SSE2__) && !SPH_DOUBLE && SPH_W == 4
