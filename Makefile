@@ -83,7 +83,10 @@ SCENES := $(wildcard examples/scenes/*.c)
 PROGS  := $(wildcard examples/*.c)
 TOOLS  := $(filter-out tools/build.c,$(wildcard tools/*.c))
 EXTRA_LISTS := $(wildcard tests/extra_*.h)
-TESTS  := $(filter-out test_lists test_restarts,$(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))))
+# the longest first, so that no processor waits for one at the end
+LONG_TESTS := test_order test_bits test_faults test_atlas test_oracle test_walls test_solid_forces test_materials
+TESTS  := $(LONG_TESTS) $(filter-out $(LONG_TESTS) test_lists test_restarts,\
+    $(sort $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))))
 
 LIBS := $(BUILDS:%=$(BUILD)/libsph%.a)
 port_obj  := $(PORT:%.c=$(BUILD)/obj/%.o)
@@ -425,7 +428,7 @@ asan_bins := $(foreach t,$(TESTS),$(foreach b,$(or $(filter $(ASAN_BUILDS),$(cal
 asan:
 	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
 	$(Q)$(call sanitized,$(asan_bins),asan)
-	$(Q)ASAN_OPTIONS=detect_leaks=0 sh tests/run.sh $(BUILD)/asan $(asan_bins)
+	$(Q)ASAN_OPTIONS=detect_leaks=0 ORDER=9 sh tests/run.sh $(BUILD)/asan $(asan_bins)
 tsan:
 	$(Q)CC="$(CLANG)" sh tests/need_cmocka.sh
 	$(Q)$(call sanitized,$(TSAN_TESTS),tsan)
