@@ -56,8 +56,8 @@ SPH_INLINE void sph_sum_lanes(sph_thread *t, uint32_t h, uint32_t n, uint32_t su
 #define SPH_LISTS (SPH_HAS_QUICK_BITS && !SPH_SCALAR && !SPH_SIFTS && SPH_W <= 4)
 _Static_assert(!SPH_LISTS || SPH_TILE <= 256, "places in a list are bytes");
 
-/* lists the vectors of a tile, of lanes from .. from + SPH_W - 1, that have somebody within reach of a home; returns how
-   many they are */
+/* lists the vectors of a tile, of lanes from .. from + SPH_W - 1, that have somebody within reach of a home; returns
+   how many they are */
 SPH_INLINE uint32_t sph_list_vectors(const sph_thread *t, const sph_tile *tile, uint32_t h, uint32_t from,
                                      vreal reach2, uint8_t *list)
 {
