@@ -50,7 +50,11 @@ typedef struct at_home {
     const sph_reference_home *was;
 } at_home;
 
-/* x_ij, K and |K|; returns false where a scalar machine may skip the pair: all terms are 0 there */
+/* how vectors out of reach are left out (pair.h); a list does not know of reference positions */
+SPH_INLINE bool skips(const sph_choice *c) { return SPH_SKIPS && c->part == SPH_PART_BOTH; }
+SPH_INLINE bool lists(const sph_choice *c) { return SPH_LISTS && !skips(c) && !c->total; }
+
+/* x_ij, K and |K|; returns false where the pairs may be skipped: all terms are 0 there */
 SPH_INLINE bool geometry(const at_home *o, sph_near *p)
 {
     SPH_UNROLL
@@ -67,7 +71,7 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
         for (int k = 0; k < SPH_DIM; k++)
             p->kx[k] = v_where(~p->apart, to[k]);
     }
-    if (!sph_within(k2, o->f->reach2))
+    if (!sph_within(k2, o->f->reach2, skips(o->c)))
         return false;
     p->q = v_sqrt(k2) * o->f->inv_h;
     SPH_UNROLL
@@ -197,9 +201,9 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
     const uint32_t sums = sums_of(c, wall);
     if (SPH_SMALL)
         sph_sum_home(sim, t, tile, h, sums, pair_either, &o);
-    else if (SPH_LISTS && !c->total && wall)
+    else if (lists(c) && wall)
         sph_sum_listed(sim, t, tile, h, sums, pair_ghosts, &o);
-    else if (SPH_LISTS && !c->total)
+    else if (lists(c))
         sph_sum_listed(sim, t, tile, h, sums, pair_matter, &o);
     else if (wall)
         sph_sum_home(sim, t, tile, h, sums, pair_ghosts, &o);

@@ -51,9 +51,12 @@ SPH_INLINE void sph_sum_lanes(sph_thread *t, uint32_t h, uint32_t n, uint32_t su
     }
 }
 
-/* Where candidates were not sifted, and a machine has the bits of a mask at once: vectors in which nobody is within the
-   kernel's reach are left out before pairs are made; all their terms are 0. Of wide vectors few are. */
+/* Where candidates were not sifted, and a machine has the bits of a mask at once, vectors in which nobody is within the
+   kernel's reach are left out; all their terms are 0. Either they are found before pairs are made (lists), or a pair
+   function leaves when it sees that (skips). A skip is a branch that is often foretold wrong: it pays where a pair
+   costs much, as rates and forces in one sweep do, and the more the wider a vector is. */
 #define SPH_LISTS (SPH_HAS_QUICK_BITS && !SPH_SCALAR && !SPH_SIFTS && SPH_W <= 4)
+#define SPH_SKIPS (SPH_HAS_QUICK_BITS && !SPH_SCALAR && !SPH_SIFTS && SPH_W >= 4)
 _Static_assert(!SPH_LISTS || SPH_TILE <= 256, "places in a list are bytes");
 
 /* lists the vectors of a tile, of lanes from .. from + SPH_W - 1, that have somebody within reach of a home; returns
