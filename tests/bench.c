@@ -15,7 +15,7 @@
 #define WIDE (SPH_DIM == 3 ? 46u : 316u) /* about 100,000 particles */
 #define SCENE_WIDE (SPH_DIM == 3 ? 24u : 120u)
 
-/* the thread's own time, so that others on the machine count little; where two threads are measured, that of the wall */
+/* the thread's own time, so that others on the machine count little; where two threads are measured, the clock's */
 static clockid_t timing = CLOCK_THREAD_CPUTIME_ID;
 static double now(void)
 {
