@@ -112,6 +112,7 @@ static __attribute__((noinline)) void cross_one(sph_sim *sim, uint32_t i, sph_th
     }
 }
 
+#define QUICK (SPH_HAS_QUICK_BITS && !SPH_SCALAR)
 /* marks the particles that are in the box around a wall's region */
 static void mark_near(const sph_sim *sim, const sph_set *s, sph_span span, uint8_t *restrict marks)
 {
@@ -127,7 +128,19 @@ static void mark_near(const sph_sim *sim, const sph_set *s, sph_span span, uint8
         hi[k] = SPH_WITH_MOVING_WALLS ? near_quanta(sim, k, s->high[k] + moved) : s->high[k];
         hi[k] = round ? sim->grid.extent[k] : hi[k];
     }
-    for (uint32_t i = span.first; i < span.last; i++) {
+    for (uint32_t i = span.first; QUICK && i < span.last; i += SPH_W) {
+        vint out = v_set_int(0);
+        SPH_UNROLL
+        for (int k = 0; k < SPH_DIM; k++) {
+            const vint q = v_load_int(pos[k] + i);
+            out |= v_less_int(q, v_set_int(lo[k])) | v_less_int(v_set_int(hi[k]), q);
+        }
+        uint32_t in = v_bits(~out);
+        in &= span.last - i < SPH_W ? (1u << (span.last - i)) - 1 : in;
+        for (; in; in &= in - 1) /* few */
+            marks[i - span.first + (uint32_t)__builtin_ctz(in)] = 1;
+    }
+    for (uint32_t i = span.first; !QUICK && i < span.last; i++) {
         int in = 1;
         SPH_UNROLL
         for (int k = 0; k < SPH_DIM; k++)

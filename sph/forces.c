@@ -61,7 +61,11 @@ typedef struct at_home {
     const sph_deform_tile *deformed;
 } at_home;
 
-/* x_ij, K and |K|; returns false where a scalar machine may skip the pair: all terms are 0 there */
+/* how vectors out of reach are left out (pair.h); a list does not know of reference positions */
+SPH_INLINE bool skips(const sph_choice *c) { return SPH_SKIPS && c->part == SPH_PART_BOTH; }
+SPH_INLINE bool lists(const sph_choice *c) { return SPH_LISTS && !skips(c) && !c->total; }
+
+/* x_ij, K and |K|; returns false where the pairs may be skipped: all terms are 0 there */
 SPH_INLINE bool geometry(const at_home *o, sph_near *p)
 {
     SPH_UNROLL
@@ -78,7 +82,7 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
         for (int k = 0; k < SPH_DIM; k++)
             p->kx[k] = v_where(~p->apart, to[k]);
     }
-    if (!sph_within(k2, o->f->reach2))
+    if (!sph_within(k2, o->f->reach2, skips(o->c)))
         return false;
     p->q = v_sqrt(k2) * o->f->inv_h;
     SPH_UNROLL
@@ -256,6 +260,10 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
     const uint32_t sums = sums_of(c, wall);
     if (SPH_SMALL)
         sph_sum_home(sim, t, tile, h, sums, pair_either, &o);
+    else if (lists(c) && wall)
+        sph_sum_listed(sim, t, tile, h, sums, pair_ghosts, &o);
+    else if (lists(c))
+        sph_sum_listed(sim, t, tile, h, sums, pair_matter, &o);
     else if (wall)
         sph_sum_home(sim, t, tile, h, sums, pair_ghosts, &o);
     else
@@ -415,16 +423,20 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
       .part = SPH_PART_FORCES)
 
 #define SPH_FAST_FN(name, ...)                                                                                     \
-    SPH_APART void force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)                           \
+    SPH_APART uint32_t force_##name(const sph_sim *sim, sph_thread *t, uint32_t homes)                             \
     {                                                                                                              \
         static const sph_choice c = {__VA_ARGS__};                                                                 \
         const sph_factors own = sim->fac;                                                                          \
+        uint32_t done = 0;                                                                                         \
         for (uint32_t h = 0; h < homes; h++)                                                                       \
-            if (sph_is_matter(&sim->set[t->home_set[h]]) || !(c.wall || sph_diffusive(c.diffusion)))                 \
+            if (sph_is_matter(&sim->set[t->home_set[h]]) || !(c.wall || sph_diffusive(c.diffusion))) {             \
                 force_home(&c, &own, sim, t, h, c.wall);                                                           \
+                done++;                                                                                            \
+            }                                                                                                      \
+        return done;                                                                                               \
     }
 #define SPH_FAST_ROW(name, ...) {{__VA_ARGS__}, force_##name},
-typedef void fast_path(const sph_sim *sim, sph_thread *t, uint32_t homes);
+typedef uint32_t fast_path(const sph_sim *sim, sph_thread *t, uint32_t homes); /* returns how many homes it took */
 #if SPH_WITH_FAST_PATHS
 SPH_FAST_FORCES(SPH_FAST_FN)
 #endif
@@ -508,13 +520,13 @@ static bool same_choice(const sph_choice *a, const sph_choice *b)
     return x[0] == y[0] && x[1] == y[1] && x[2] == y[2];
 }
 
-/* the fast path of these choices, or null */
-static fast_path *fast_path_of(const sph_choice *c)
+/* 1 + the number of the fast path of these choices, or 0 */
+static uint8_t fast_path_of(const sph_choice *c)
 {
     uint32_t k = 0;
     while (fast_paths[k].run && !same_choice(&fast_paths[k].c, c))
         k++;
-    return fast_paths[k].run;
+    return (uint8_t)(fast_paths[k].run ? k + 1 : 0);
 }
 
 static uint32_t form_of(const sph_config *c, bool forces)
@@ -555,22 +567,27 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                          .energy = sph_has_energy(c)};
 }
 
-/* Adds a tile to the homes' sums. A ghost whose density goes by continuity sums over matter only; its acceleration is
-   not used. */
-static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+/* the fast paths of this pass, of tiles of matter and of ghosts, for all cells of a chunk */
+static void find_fast_paths(const sph_sim *sim, sph_thread *t)
+{
+    for (uint32_t wall = 0; wall < 2; wall++) {
+        sph_choice c = choice_of(sim, wall);
+        c.apart = SPH_HAS_APART && sph_asks_apart(sim);
+        t->fast_path[wall] = fast_path_of(&c);
+    }
+}
+
+/* Adds a tile to the homes' sums, in a general form, where no fast path has. A ghost whose density goes by continuity
+   sums over matter only; its acceleration is not used. */
+static void force_tile_any(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role, bool fast)
 {
     sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
     const uint8_t diffusion = c.diffusion;
     const sph_factors *f = &sim->fac;
     c.apart = SPH_HAS_APART && sph_asks_apart(sim);
-    fast_path *const fast = role == SPH_ROLE_FORCE_WALL ? NULL : fast_path_of(&c);
-    /* left over by a fast path */
-    const bool ghosts = SPH_WITH_WALL_GHOST && role == SPH_ROLE_FLUID && sph_diffusive(diffusion);
-    if (fast)
-        fast(sim, t, homes);
-    for (uint32_t h = 0; h < homes && (!fast || ghosts); h++) {
+    for (uint32_t h = 0; h < homes; h++) {
         const bool matter = sph_is_matter(&sim->set[t->home_set[h]]);
-        if (matter ? fast != NULL : role != SPH_ROLE_FLUID)
+        if (matter ? fast : role != SPH_ROLE_FLUID)
             continue;
         if (SPH_WITH_WALL_GHOST)
             c.diffusion = matter ? diffusion : (uint8_t)SPH_NO_DIFFUSION; /* density does not diffuse into walls */
@@ -589,6 +606,13 @@ static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32
         else
             force_fluid(&c, f, sim, t, h);
     }
+}
+static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
+{
+    const uint32_t path =
+        SPH_WITH_FAST_PATHS && role != SPH_ROLE_FORCE_WALL ? t->fast_path[role == SPH_ROLE_GHOST] : 0;
+    if (!path || fast_paths[path - 1].run(sim, t, homes) < homes)
+        force_tile_any(sim, t, homes, role, path != 0);
 }
 
 /* ---- the pass ---- */
@@ -617,6 +641,8 @@ static void force_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
         return;
     const sph_choice c = choice_of(sim, true);
     const bool points = sph_takes_forces(&c);
+    if (SPH_WITH_FAST_PATHS)
+        find_fast_paths(sim, t);
     const sph_sweep w = {is_force_home,
                          SPH_MATTER | 1u << SPH_ROLE_GHOST | (points ? 1u << SPH_ROLE_FORCE_WALL : 0),
                          sums_of(&c, true) | (points && (c.books || sim->has_force_wall) ? SUM_MASK(BOUNDARY) : 0),

@@ -98,12 +98,6 @@ SPH_INLINE vreal v_sqrt(vreal a)
     return r;
 }
 SPH_INLINE vreal v_set(sph_real a) { return a - (vreal){0}; }
-/* whether a pair must be worked off; the scalar form skips those out of reach, whose terms are all 0 */
-SPH_INLINE bool sph_within(vreal r2, sph_real reach2)
-{
-    (void)r2, (void)reach2;
-    return true;
-}
 SPH_INLINE vreal v_from_int(vint a) { return __builtin_convertvector(a, vreal); }
 SPH_INLINE vint v_to_int(vreal a) { return __builtin_convertvector(a, vint); } /* towards 0; |a| must be in range */
 SPH_INLINE vint v_set_int(sph_int a) { return a - (vint){0}; }
@@ -122,7 +116,6 @@ typedef sph_real vreal;
 typedef sph_int vint;
 #define SPH_SCALAR 1
 SPH_INLINE vreal v_sqrt(vreal a) { return SPH_SQRT(a); }
-SPH_INLINE bool sph_within(vreal r2, sph_real reach2) { return !(r2 > reach2); }
 SPH_INLINE vreal v_set(sph_real a) { return a; }
 SPH_INLINE vreal v_from_int(vint a) { return (vreal)a; }
 SPH_INLINE vint v_to_int(vreal a) { return (vint)a; }
@@ -134,7 +127,12 @@ SPH_INLINE vint v_equal(vreal a, vreal b) { return -(vint)!(a < b || b < a); }
 SPH_INLINE vreal v_select(vint m, vreal a, vreal b) { return m ? a : b; }
 #endif
 
-/* bit l: whether a mask holds in lane l */
+/* bit l: whether a mask holds in lane l; SPH_HAS_QUICK_BITS: by one instruction */
+#if defined(__SSE2__) && SPH_W <= 8
+#define SPH_HAS_QUICK_BITS 1
+#else
+#define SPH_HAS_QUICK_BITS 0
+#endif
 #if SPH_SCALAR
 SPH_INLINE uint32_t v_bits(vint m) { return (uint32_t)m & 1; }
 #elif defined(__SSE2__) && !SPH_DOUBLE && SPH_W == 4
@@ -155,6 +153,15 @@ SPH_INLINE uint32_t v_bits(vint m)
     return bits;
 }
 #endif
+
+/* Whether pairs must be worked off; those out of reach need not, all their terms are 0. The scalar form skips them; of
+   a vector all must be, and it is asked for. */
+SPH_INLINE bool sph_within(vreal r2, sph_real reach2, bool skips)
+{
+    if (!SPH_SCALAR && !(skips && SPH_HAS_QUICK_BITS))
+        return true;
+    return v_bits(v_less(v_set(reach2), r2)) != (1u << SPH_W) - 1;
+}
 
 /* Four records side by side become n <= 4 columns: element k of record l goes to place l of column k. */
 #if !SPH_SCALAR && defined(__has_builtin)

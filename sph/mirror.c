@@ -34,9 +34,30 @@ static double round_of(const sph_candidates *r, uint32_t j)
     return further;
 }
 
+/* of walls that mirror nothing: no normal, no depth */
+SPH_INLINE void load_plain_wall(const sph_candidates *r, sph_real *to, uint32_t row)
+{
+    sph_real *const u0 = to + (size_t)SPH_DIM * row, *const depth = u0 + (size_t)SPH_DIM * row;
+    sph_real *const vis = depth + row;
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        for (uint32_t j = 0; j < r->n; j += SPH_W) {
+            const vreal own = v_load(r->b->vel[k] + r->first + j) * r->im->flip[k]; /* that a pass has found for it */
+            v_store(u0 + k * row + j, r->set->no_slip ? own : v_load(r->tile->v[k] + r->at + j));
+            v_store(to + k * row + j, v_set(0));
+        }
+    for (uint32_t j = 0; j < r->n; j += SPH_W) {
+        v_store(depth + j, v_set(0));
+        v_store(vis + j, v_set(r->set->no_slip ? 1 : 0));
+    }
+}
+
 void sph_load_mirror(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const bool mirror = SPH_IS(r->set->kind, WALL_GHOST);
+    if (!SPH_SMALL && !mirror) {
+        load_plain_wall(r, to, row);
+        return;
+    }
     const double plane = mirror ? plane_of(r) : 0;
     sph_real *const u0 = to + (size_t)SPH_DIM * row, *const depth = u0 + (size_t)SPH_DIM * row;
     sph_real *const vis = depth + row;

@@ -79,6 +79,16 @@ SPH_INLINE bool move_matter(const sph_sim *sim, const sph_move *a, uint32_t i, u
     return any == 0;
 }
 
+/* wall particles that stay, with the density that they have */
+SPH_INLINE void copy_walls(const sph_buffer *b, uint32_t i, uint32_t n, sph_block *o, uint32_t at)
+{
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        memcpy(o->pos[k] + at, b->pos[k] + i, n * sizeof(sph_pos));
+        memcpy(o->vel[k] + at, b->vel[k] + i, n * sizeof(sph_real));
+    }
+    memcpy(o->rho + at, b->rho[0] + i, n * sizeof(sph_real));
+}
+
 /* wall particles go where their group goes; their density only as its rate says */
 static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, uint32_t i, uint32_t n, sph_block *o,
                        uint32_t at)
@@ -87,7 +97,13 @@ static bool move_walls(const sph_sim *sim, const sph_move *a, const sph_set *s, 
     bool fine = !removed;
     const sph_buffer *b = &sim->buf[sim->src];
     /* the first sort of two is at the step's beginning, where they are */
-    const bool moves = SPH_WITH_MOVING_WALLS && sim->stage->at > 0;
+    bool moves = false;
+    for (uint32_t k = 0; SPH_WITH_MOVING_WALLS && sim->stage->at > 0 && k < SPH_DIM; k++)
+        moves |= sph_wall_step(sim, s, k) != 0;
+    if (!SPH_SMALL && !moves && !removed && !sph_is_compressible(s)) {
+        copy_walls(b, i, n, o, at);
+        return true;
+    }
     for (uint32_t j = 0; j < n; j++) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             /* less than a domain's length (sph_move_groups), though the difference alone may not fit into a position */

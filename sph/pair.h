@@ -51,6 +51,55 @@ SPH_INLINE void sph_sum_lanes(sph_thread *t, uint32_t h, uint32_t n, uint32_t su
     }
 }
 
+/* Where candidates were not sifted, and a machine has the bits of a mask at once, vectors in which nobody is within the
+   kernel's reach are left out; all their terms are 0. Either they are found before pairs are made (lists), or a pair
+   function leaves when it sees that (skips). A skip is a branch that is often foretold wrong: it pays where a pair
+   costs much, as rates and forces in one sweep do, and the more the wider a vector is. */
+#define SPH_LISTS (SPH_HAS_QUICK_BITS && !SPH_SCALAR && !SPH_SIFTS && SPH_W <= 4)
+#define SPH_SKIPS (SPH_HAS_QUICK_BITS && !SPH_SCALAR && !SPH_SIFTS && SPH_W >= 4)
+_Static_assert(!SPH_LISTS || SPH_TILE <= 256, "places in a list are bytes");
+
+/* lists the vectors of a tile, of lanes from .. from + SPH_W - 1, that have somebody within reach of a home; returns
+   how many they are */
+SPH_INLINE uint32_t sph_list_vectors(const sph_thread *t, const sph_tile *tile, uint32_t h, uint32_t from,
+                                     vreal reach2, uint8_t *list)
+{
+    vreal x[SPH_DIM];
+    uint32_t found = 0;
+    SPH_UNROLL
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        x[k] = v_set(t->home.x[k][h]);
+    for (uint32_t j = from; j < tile->n; j += SPH_LANES) {
+        vreal dx[SPH_DIM];
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            dx[k] = x[k] - v_load(tile->x[k] + j);
+        list[found] = (uint8_t)j;
+        found += v_bits(v_less(reach2, sph_dot(dx, dx))) != (1u << SPH_W) - 1;
+    }
+    return found;
+}
+/* as sph_sum_lanes, of those vectors alone */
+SPH_INLINE void sph_sum_listed(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t h, uint32_t sums,
+                               sph_pair_fn pair, const void *what)
+{
+    uint8_t list[SPH_TILE / SPH_LANES + 1];
+    const vreal reach2 = v_set(sim->fac.reach2);
+    for (uint32_t from = 0; from < SPH_LANES; from += SPH_W) {
+        const uint32_t found = sph_list_vectors(t, tile, h, from, reach2, list);
+        vreal s[SPH_SUMS];
+        SPH_UNROLL_MANY
+        for (uint32_t a = 0; a < SPH_SUMS; a++)
+            s[a] = sums >> a & 1 ? v_load(t->sum[a][h] + from) : v_set(0);
+        for (uint32_t i = 0; i < found; i++)
+            pair(what, list[i], s);
+        SPH_UNROLL_MANY
+        for (uint32_t a = 0; a < SPH_SUMS; a++)
+            if (sums >> a & 1)
+                v_store(t->sum[a][h] + from, s[a]);
+    }
+}
+
 /* what a pair function reads of a tile: its candidates, or those of them that are neighbours */
 SPH_INLINE const sph_near_tile *sph_near_of(const sph_thread *t, const sph_tile *tile)
 {

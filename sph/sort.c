@@ -70,9 +70,9 @@ static bool slab_too_far(const sph_sim *sim, uint32_t from, uint32_t to)
 }
 
 /* where the count leaves each particle's cell for the scatter: in dst.acc, which is free until the forces */
-SPH_INLINE void keep_cell(const sph_sim *sim, uint32_t i, uint32_t cell)
+SPH_INLINE void keep_cells(const sph_sim *sim, uint32_t i, const uint32_t *cell, uint32_t n)
 {
-    memcpy((unsigned char *)sim->buf[sim->dst].acc[0] + 4 * (size_t)i, &cell, sizeof cell);
+    memcpy((unsigned char *)sim->buf[sim->dst].acc[0] + 4 * (size_t)i, cell, n * sizeof *cell);
 }
 SPH_INLINE uint32_t kept_cell(const sph_sim *sim, uint32_t i)
 {
@@ -82,6 +82,15 @@ SPH_INLINE uint32_t kept_cell(const sph_sim *sim, uint32_t i)
 }
 
 #define NO_CELL 0xffffffffu
+
+/* notes which of the particles p .. e - 1, all of one slab, went further than to the next */
+static void check_ways(const sph_sim *sim, uint32_t slab, uint32_t p, uint32_t e, const uint32_t *cell, sph_thread *t)
+{
+    const uint32_t cells = sim->grid.slab_cells, low = slab * cells - cells;
+    for (uint32_t j = 0; j < e - p; j++) /* unsigned: cells of the slab itself and its two neighbours */
+        if (cell[j] != NO_CELL && cell[j] - low >= 3 * cells && slab_too_far(sim, slab, cell[j] / cells))
+            sph_fail_note(t, SPH_MOVED_TOO_FAR, sim->buf[sim->src].id[0][p + j], 2);
+}
 
 /* cells of a block; NO_CELL for who is gone. The range that owns a particle also checks its way and keeps its cell. */
 static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, bool fine, uint32_t *slab, sph_thread *t)
@@ -99,17 +108,17 @@ static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, bo
         if (o->gone[j])
             cell[j] = NO_CELL;
     const uint32_t from = i > g->own_from ? i : g->own_from, to = i + n < g->own_to ? i + n : g->own_to;
-    for (uint32_t p = from; p < to; p++) {
-        const uint32_t c = cell[p - i];
-        keep_cell(sim, p, c);
-        if (!sim->src_table || c == NO_CELL || (SPH_WITH_FLOW && p >= g->known))
-            continue;
-        while (*slab + 1 < g->hi && sim->slab[*slab + 1] <= p)
-            ++*slab;
-        /* unsigned: cells of the slab itself and its two neighbours */
-        const uint32_t low = *slab * sim->grid.slab_cells - sim->grid.slab_cells;
-        if (c - low >= 3 * sim->grid.slab_cells && slab_too_far(sim, *slab, c / sim->grid.slab_cells))
-            sph_fail_note(t, SPH_MOVED_TOO_FAR, sim->buf[sim->src].id[0][p], 2);
+    for (uint32_t p = from, e; p < to; p = e) { /* particles of one slab at a time */
+        e = SPH_SMALL ? p + 1 : to;
+        if (sim->src_table && !(SPH_WITH_FLOW && p >= g->known)) {
+            while (*slab + 1 < g->hi && sim->slab[*slab + 1] <= p)
+                ++*slab;
+            const uint32_t end = *slab + 1 < g->hi ? sim->slab[*slab + 1] : to;
+            e = !SPH_SMALL && end < e ? end : e;
+            e = SPH_WITH_FLOW && g->known < e ? g->known : e;
+            check_ways(sim, *slab, p, e, cell + (p - i), t);
+        }
+        keep_cells(sim, p, cell + (p - i), e - p);
     }
 }
 

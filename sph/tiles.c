@@ -99,7 +99,7 @@ SPH_INLINE bool drifts_beside(const sph_candidates *r, bool wall)
     return sph_in_middle(r->sim) && !wall && sph_drift(r->sim, r->b, 0) != NULL;
 }
 
-/* bodies have the damper's pressure in sums of forces */
+/* matter has the damper's pressure in sums of forces */
 SPH_INLINE bool damped_here(const sph_candidates *r, bool wall)
 {
     return sph_quiets(&r->sim->cfg) && sph_sums_forces(r->sim) && !wall;
@@ -132,17 +132,19 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
     X(floor_homes, TAIT, true, false, true, false, COPIED_HOMES)                                                   \
     X(diffusive, TAIT, true, true, true, false, COPIED)                                                            \
     X(diffusive_homes, TAIT, true, true, true, false, COPIED_HOMES)                                                \
-    X(wall, TAIT, false, false, true, SPH_HAS_LAYERED_WALLS, COPIED)                                               \
-    X(wall_floor, TAIT, true, false, true, SPH_HAS_LAYERED_WALLS, COPIED)                                          \
-    X(wall_diffusive, TAIT, true, true, true, SPH_HAS_LAYERED_WALLS, COPIED)                                       \
+    X(wall, TAIT, false, false, true, true, COPIED)                                                                \
+    X(wall_homes, TAIT, false, false, true, true, COPIED_HOMES)                                                    \
+    X(wall_floor, TAIT, true, false, true, true, COPIED)                                                           \
+    X(wall_floor_homes, TAIT, true, false, true, true, COPIED_HOMES)                                               \
+    X(wall_diffusive, TAIT, true, true, true, true, COPIED)                                                        \
     X(linear, LINEAR, false, false, true, false, COPIED)                                                           \
     X(linear_homes, LINEAR, false, false, true, false, COPIED_HOMES)                                               \
     X(rates, TAIT, false, false, false, false, COPIED)                                                             \
     X(rates_homes, TAIT, false, false, false, false, COPIED_HOMES)                                                 \
     X(rates_diffusive, TAIT, false, true, false, false, COPIED)                                                    \
     X(rates_diffusive_homes, TAIT, false, true, false, false, COPIED_HOMES)                                        \
-    X(rates_wall, TAIT, false, false, false, SPH_HAS_LAYERED_WALLS, COPIED)                                        \
-    X(rates_wall_diffusive, TAIT, false, true, false, SPH_HAS_LAYERED_WALLS, COPIED)
+    X(rates_wall, TAIT, false, false, false, true, COPIED)                                                         \
+    X(rates_wall_diffusive, TAIT, false, true, false, true, COPIED)
 #define SPH_FAST_FN(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                           \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t, sph_real least)                               \
     {                                                                                                              \
@@ -153,6 +155,13 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
 SPH_FAST_LOADS(SPH_FAST_FN)
 #undef SPH_FAST_FN
 
+/* what tells the fast loads from each other, as one number */
+#define LOAD_KEY(eos, floor, inv_rho, press, wall, homes)                                                          \
+    ((uint32_t)(eos) << 5 | (uint32_t)(floor) << 4 | (uint32_t)(inv_rho) << 3 | (uint32_t)(press) << 2 |           \
+     (uint32_t)(wall) << 1 | (uint32_t)(homes))
+#define NO_KEY 0xffffffffu
+#define FOR_COPIED 0
+#define FOR_COPIED_HOMES 1
 #define LEAST_DENSITY ((sph_real)0.5) /* of that at rest */
 
 void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool homes)
@@ -163,22 +172,21 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool ho
     const sph_config *c = &r->sim->cfg;
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, press = needs_press(r->sim);
     const bool floor = press && c->pressure_floor && !sph_is_solid(r->set);
-    const uint32_t copied = homes ? COPIED_HOMES : COPIED;
     /* of rates the equation of state does not matter */
     const uint32_t eos = press ? r->set->eos : SPH_TAIT;
     const bool usual = SPH_WITH_FAST_PATHS && (SPH_IS(c->scheme, STANDARD) || !press) && !r->im->is_image &&
                        !drifts_beside(r, wall) && !damped_here(r, wall) && !sph_has_energy(c) &&
                        (!sph_normalises(c) || sph_sums_forces(r->sim));
-    (void)copied;
-#define SPH_FAST_TRY(name, eos_, floor_, inv_rho_, press_, wall_, copied_)                                         \
-    if (usual && eos == SPH_##eos_ && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) &&           \
-        wall == (wall_) && copied == (copied_)) {                                                                  \
+    const uint32_t key = LOAD_KEY(eos, floor, inv_rho, press, wall, homes);
+    switch (usual ? key : NO_KEY) {
+#define SPH_FAST_CASE(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                         \
+    case LOAD_KEY(SPH_##eos_, floor_, inv_rho_, press_, wall_, FOR_##copied):                                      \
         load_##name(r, t, least);                                                                                  \
-        return;                                                                                                    \
+        return;
+        SPH_FAST_LOADS(SPH_FAST_CASE)
+#undef SPH_FAST_CASE
+    default: load_any(r, t, least, inv_rho);
     }
-    SPH_FAST_LOADS(SPH_FAST_TRY)
-#undef SPH_FAST_TRY
-    load_any(r, t, least, inv_rho);
 }
 
 void sph_load_points(const sph_candidates *r, sph_points *t)
@@ -195,13 +203,15 @@ void sph_load_points(const sph_candidates *r, sph_points *t)
 
 void sph_close_tile(const sph_sim *sim, sph_tile *t)
 {
-    const sph_real far = (sph_real)(64 * sim->grid.support);
-    for (uint32_t j = t->n; j < t->n + SPH_LANES; j++) {
+    const vreal far = v_set((sph_real)(64 * sim->grid.support)), none = v_set(0), one = v_set(1);
+    for (uint32_t j = t->n; j < t->n + SPH_LANES; j += SPH_W) {
         for (uint32_t k = 0; k < SPH_DIM; k++) {
-            t->x[k][j] = far;
-            t->v[k][j] = 0;
+            v_store(t->x[k] + j, far);
+            v_store(t->v[k] + j, none);
         }
-        t->m[j] = t->press[j] = 0;
-        t->rho[j] = t->inv_rho[j] = 1;
+        v_store(t->m + j, none);
+        v_store(t->press + j, none);
+        v_store(t->rho + j, one);
+        v_store(t->inv_rho + j, one);
     }
 }

@@ -89,8 +89,9 @@ static inline tank fill(uint32_t n, port_posix *pool, sph_stage_log log, void *l
     return fill_as(n, pool, log, log_ctx, NULL);
 }
 
-/* a free block, slightly jittered and moving: water (form SPH_NO_SOLID) or a solid in tension here and there */
-static inline tank block(uint32_t n, uint32_t form, uint32_t repulsion, bool brittle)
+/* a free block, slightly jittered and moving: water (form SPH_NO_SOLID) or a solid in tension here and there; room: of
+   the domain, on each side, in spacings */
+static inline tank block_in(double room, uint32_t n, uint32_t form, uint32_t repulsion, bool brittle)
 {
     sph_config c = sph_config_default();
     tank t;
@@ -102,8 +103,8 @@ static inline tank block(uint32_t n, uint32_t form, uint32_t repulsion, bool bri
     c.rho0 = c.sound_speed = 1;
     c.alpha = 0.5;
     for (int k = 0; k < 2; k++) {
-        c.lo[k] = -5;
-        c.hi[k] = n + 5;
+        c.lo[k] = -room;
+        c.hi[k] = n + room;
     }
     c.max_particles = n * n;
     c.solid = form;
@@ -128,6 +129,11 @@ static inline tank block(uint32_t n, uint32_t form, uint32_t repulsion, bool bri
     check(t.sim, sph_ready(t.sim), "ready");
     t.particles = n * n;
     return t;
+}
+
+static inline tank block(uint32_t n, uint32_t form, uint32_t repulsion, bool brittle)
+{
+    return block_in(5, n, form, repulsion, brittle);
 }
 
 #endif
