@@ -80,6 +80,7 @@ typedef struct o_particle {
     double pull[3][3];         /* artificial stress R */
     double cover;              /* Q of the quadrature weights */
     o_sum phi;                 /* the weight; 0: 1 */
+    double lost;               /* J, what damping by a rate took before the sort */
     double quiet;              /* Pa, pressure of the damper */
     double way[3];             /* how its place moves: v + xsph, m/s */
     double beside[3];          /* xsph alone */
