@@ -168,7 +168,10 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-#define SPH_MAX_PROGRAM 96u
+/* passes of the longest list (integrators.c) */
+#define SPH_MAX_PROGRAM                                                                                     \
+    (48u + (SPH_WITH_FLOW ? 8u : 0u) + (SPH_HAS_STABILISED || SPH_HAS_NORMALISED || SPH_HAS_HOURGLASS ? 24u : 0u) + \
+     (SPH_WITH_DAMPER || SPH_WITH_DAMPING_RATE || SPH_HAS_XSPH_VELOCITY ? 16u : 0u))
 
 struct sph_sim {
     sph_config cfg;

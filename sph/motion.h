@@ -44,7 +44,7 @@ SPH_INLINE sph_real sph_rounding(const sph_sim *sim)
 /* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho, and +
    foresight rise in the predictor-corrector; part: see sph_rounding */
 typedef struct sph_move {
-    sph_real drift, bend, kick, rate, foresight, damping, part, slowed;
+    sph_real drift, bend, kick, rate, foresight, damping, part;
 } sph_move;
 /* what damping by a rate multiplies velocities by before all else of a step; 1 in other sorts */
 #define sph_slowed_by SPH_NAME(slowed_by_)

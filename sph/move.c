@@ -11,21 +11,21 @@ SPH_OBJECT(move)
    long one, its rise is noise. */
 static sph_real foresight(sph_real dt, sph_real last) { return dt < 2 * last ? dt * (dt / last) : 2 * dt; }
 
+#if SPH_WITH_DAMPING_RATE
 sph_real sph_slowed_by(const sph_sim *sim)
 {
-    if (!SPH_WITH_DAMPING_RATE || !(sim->cfg.damping_rate > 0) || !sph_begins_step(sim))
+    if (!(sim->cfg.damping_rate > 0) || !sph_begins_step(sim))
         return 1;
     const double last = SPH_HAS_RATES_FIRST && sim->stage->resumes ? sim->now.dt_last : 0; /* damping.c */
     return (sph_real)sph_exp(-0.5 * sim->cfg.damping_rate * (sim->dt - last));
 }
+#endif
 
 sph_move sph_stage_move(const sph_sim *sim)
 {
     const sph_stage *g = sim->stage;
     const sph_real dt = (sph_real)sim->dt, damping = g->damps ? (sph_real)sim->cfg.damping : 1;
-    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping, sph_rounding(sim), 1};
-    if (SPH_WITH_DAMPING_RATE)
-        m.slowed = sph_slowed_by(sim);
+    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping, sph_rounding(sim)};
     if (sph_foresees(&sim->cfg))
         m.foresight = g->rate * foresight(dt, (sph_real)sim->now.dt_last);
     if (SPH_HAS_RATES_FIRST && g->resumes) {
@@ -43,7 +43,7 @@ SPH_INLINE bool move_matter(const sph_sim *sim, const sph_move *a, uint32_t i, u
     const sph_buffer *b = &sim->buf[sim->src];
     const vreal inv = v_set((sph_real)(1 / sim->grid.quantum)), part = v_set(a->part);
     const bool flows = sph_flow_of(sim, &sim->set[b->set[0][i]]) != NULL;
-    const sph_real slowed = SPH_WITH_DAMPING_RATE && !flows ? a->slowed : 1;
+    const sph_real slowed = SPH_WITH_DAMPING_RATE && !flows ? sph_slowed_by(sim) : 1;
     vint bad = v_set_int(0);
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         /* no further than a cell, and never so far that the integer overflows */

@@ -34,31 +34,35 @@ static double kinetic(const o_scene *s, const o_particle *i)
     return 0.5 * s->set[i->set].mass * o_dot(i->v, i->v);
 }
 
-/* damping by the rate over a time, and then `rest` of the acceleration */
-static void slow(o_scene *s, double time, double rest)
+/* damping by the rate over a time, and then `rest` of the acceleration; returns what a particle loses, J */
+static double slow(const o_scene *s, o_particle *i, double time, double rest)
 {
-    for (uint32_t a = 0; a < s->n && s->cfg.damping_rate > 0; a++) {
-        o_particle *i = &s->own[a];
-        if (!o_is_body(s, i))
-            continue;
-        const double before = kinetic(s, i);
-        for (int k = 0; k < SPH_DIM; k++)
-            if (!(o_is_solid(s, i) && s->set[i->set].held >> k & 1))
-                i->v[k] = i->v[k] * exp(-s->cfg.damping_rate * time) + rest * i->a[k].v;
-        o_add(&s->slowed, before - kinetic(s, i), before + kinetic(s, i));
-    }
+    const double before = kinetic(s, i);
+    for (int k = 0; k < SPH_DIM && o_is_body(s, i); k++)
+        if (!(o_is_solid(s, i) && s->set[i->set].held >> k & 1))
+            i->v[k] = i->v[k] * exp(-s->cfg.damping_rate * time) + rest * i->a[k].v;
+    return before - kinetic(s, i);
 }
 void o_slow_first(o_scene *s, double dt, double last)
 {
-    slow(s, s->cfg.integrator == SPH_LEAP_FROG ? 0.5 * (dt - last) : 0.5 * dt, 0);
+    const double time = s->cfg.integrator == SPH_LEAP_FROG ? 0.5 * (dt - last) : 0.5 * dt;
+    for (uint32_t a = 0; a < s->n; a++) {
+        o_particle *i = &s->own[a];
+        i->lost = s->cfg.damping_rate > 0 ? slow(s, i, time, 0) : 0;
+        if (s->cfg.integrator < SPH_RUNGE_KUTTA)
+            continue;
+        o_plus(&s->slowed, i->lost); /* nobody leaves in its first sort */
+        i->lost = 0;
+    }
 }
 void o_slow_last(o_scene *s, double dt)
 {
     const double half = exp(-0.5 * s->cfg.damping_rate * dt);
-    if (s->cfg.integrator == SPH_LEAP_FROG)
-        slow(s, dt, (half - half * half) * dt);
-    else
-        slow(s, 0.5 * dt, 0);
+    const bool leaps = s->cfg.integrator == SPH_LEAP_FROG;
+    for (uint32_t a = 0; a < s->n && s->cfg.damping_rate > 0; a++) {
+        const double taken = slow(s, &s->own[a], leaps ? dt : 0.5 * dt, leaps ? (half - half * half) * dt : 0);
+        o_add(&s->slowed, taken, fabs(taken) + kinetic(s, &s->own[a]));
+    }
 }
 
 bool o_drifts(const o_scene *s) { return s->cfg.xsph > 0 && !s->cfg.xsph_velocity; }

@@ -86,6 +86,7 @@ typedef struct o_particle {
     double fill, slant[3], row[3], drawn[3], row_scale, drawn_scale, mapped[3][3], deform[3][3], stiff, deform_scale;
     int level;
     bool on[3];
+    double lost;               /* J, what damping by a rate took before the sort */
     double quiet;              /* Pa, pressure of the damper */
     double way[3];             /* how its place moves: v + xsph, m/s */
     double beside[3];          /* xsph alone */

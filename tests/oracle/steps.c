@@ -204,7 +204,7 @@ static void leave(o_scene *s, o_particle *p, const beginning *b)
 {
     p->gone = true;
     s->left++;
-    o_plus(&s->carried_off, b->energy);
+    o_plus(&s->carried_off, b->energy + p->lost);
 }
 
 static void pass_faces(o_scene *s)
@@ -362,8 +362,6 @@ static void predict_correct(o_scene *s, uint32_t number, double dt)
             const double rise = p->rate.v / s->set[p->set].rho0 - b->rate;
             p->d += half(dt) * rise - (foresees ? foresight * b->rise : 0);
             b->rise = half(rise);
-            if (s->cfg.damper > 0)
-                o_book_quiet(s, p, p->rate.v / s->set[p->set].rho0 - b->rise, dt);
         }
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3 && o_is_solid(s, p); l++)
@@ -419,8 +417,6 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
                           (p->v[k] + half(dt) * ((leaps ? 2 : 1) * p->a[k].v - turned(b, k, b->a[k])));
     }
     mend_drift(s, dt);
-    for (uint32_t i = 0; i < s->n && s->cfg.damper > 0; i++)
-        o_book_quiet(s, &s->own[i], was[i].rise, dt);
     for (uint32_t i = 0; i < s->n; i++)
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3; l++)
@@ -483,7 +479,14 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     else
         runge_kutta(s, number, dt);
     o_cross(s);
+    for (uint32_t i = 0; i < s->n; i++) /* of those who left in the first sort it took nothing */
+        o_plus(&s->slowed, s->own[i].lost);
     forget_the_gone(s);
+    for (uint32_t i = 0; i < s->n && s->cfg.damper > 0; i++) {
+        const o_particle *p = &s->own[i];
+        const double end = by == SPH_PREDICTOR_CORRECTOR ? p->rate.v / s->set[p->set].rho0 : 2 * was[i].rise;
+        o_book_quiet(s, p, end - was[i].rise, dt);
+    }
     o_even(s);
     o_slow_last(s, dt);
     o_refresh(s);
