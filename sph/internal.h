@@ -150,7 +150,8 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-#define SPH_MAX_PROGRAM (SPH_HAS_STABILISED || SPH_HAS_NORMALISED || SPH_HAS_HOURGLASS ? 96u : SPH_WITH_FLOW ? 56u : 48u)
+#define SPH_HAS_FORMS (SPH_HAS_STABILISED || SPH_HAS_NORMALISED || SPH_HAS_HOURGLASS)
+#define SPH_MAX_PROGRAM (SPH_HAS_FORMS ? 96u : SPH_WITH_FLOW ? 56u : 48u)
 
 struct sph_sim {
     sph_config cfg;
