@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-"""validate_edges.py: runs the cases of edges that let elastic waves out (Powell 2012) and holds them against closed
+"""validate_edges.py: runs Powell's cases (2012): edges that let elastic waves out, forms that hold in tension; against closed
 forms, finite elements and his figures.
 
 usage: validate_edges.py [--quick] [--jobs N] [--only WORD] [--keep] [--tool build/sph]
@@ -65,7 +65,7 @@ def plane_waves(quick, add):
         for kind in "p" if quick or name in ("M printed", "H", "viscous") else "ps":
             angles = (0, 30, 60) if quick or kind == "s" else (0, 15, 30, 45, 60, 75)
             for angle in (a for a in angles if kind == "p" or a <= 30):
-                run = Run("plane_wave", angle=angle, wave=kind, every=1e6, **options)
+                run = Run("plane_wave", precision="double", angle=angle, wave=kind, every=1e6, **options)
                 own = name.startswith("matched")
                 head = f"plane_wave {name} {kind.upper()} {angle} degrees"
                 target = 1.0 if own and angle <= 60 else None
@@ -91,21 +91,25 @@ def bar_error(run):
 
 def bars(quick, add):
     printed = {r["layer"]: r for r in read_table("powell_table_2_1.csv")}
-    forms = {"SPH": ("updated", "SPH"), "corrected": ("corrected", "NCSPH")}
-    for form, (option, column) in forms.items():
+    xsph = dict(xsph=0.1, xsph_velocity="yes")
+    forms = {"SPH": (dict(form="updated"), "SPH"), "XSPH": (dict(form="updated", **xsph), "XSPH"),
+             "corrected": (dict(form="corrected"), "NCSPH"),
+             "corrected XSPH": (dict(form="corrected", **xsph), "NCXSPH"),
+             "SPH alpha 0.1": (dict(form="updated", alpha=0.1), "SPH")}
+    for form, (own, column) in forms.items():
         for layer in ("reference", 1, 2, 3, 4, 5):
             target = printed[str(layer)][column]
             options = dict(n=1300, edge="none") if layer == "reference" else dict(edge="p", layers=layer)
-            run = Run("bar", form=option, every=0.01, **options)
-            what = "X" if target == "X" else f"{100 * float(target) / 100:g}"
+            run = Run("bar", precision="double", every=0.005, **own, **options)
+            head = f"P2 {form} " + ("long bar" if layer == "reference" else f"P on {layer}")
             if target == "X":
-                add(f"P2 {form} P on {layer} (printed X): grows to", "% of v", (">=", 100), [run],
+                add(f"{head} (printed X): grows to", "% of v", (">=", 100), [run],
                     lambda r: 1e9 if r.error else max(r.col("error")))
             else:
-                add(f"P2 {form} P on {layer} (printed {what})", "% of v", float(target), [run], bar_error)
+                add(f"{head} (printed {target})", "% of v", float(target), [run], bar_error)
         for name, more in {"natural": {}, "matched 10": dict(layer=10)}.items():
-            add(f"P2 {form} {name} (best printed {0.0726 if form != 'SPH' else 1.5015})", "% of v", None,
-                [Run("bar", form=option, every=0.01, edge="natural", **more)], bar_error)
+            add(f"P2 {form} {name}", "% of v", None,
+                [Run("bar", precision="double", every=0.005, edge="natural", **own, **more)], bar_error)
 
 
 # ---- P3, P4: the square and the disc ----
@@ -153,7 +157,58 @@ def discs(quick, add):
                 2.0 if name.startswith("matched") else None, [run], lambda r: late_kinetic(r, 3))
 
 
-GROUPS = [plane_waves, bars, squares, discs]
+# ---- P8, P9, P10: forms that hold in tension ----
+
+FORMS = ("updated", "normalised_corrected", "stabilised", "total")
+HOLDS = ("stabilised", "total")
+
+
+def worst(run, column, table, ref, last, share=True):
+    """Largest difference of a column from a reference until `last` us, in percent of the reference's range; a run that
+    ended before has none."""
+    rows = [(float(r["t_us"]), float(r[ref])) for r in read_table(table)]
+    if run.error or run.col("us")[-1] < last:
+        raise ValueError(run.error or "ended early")
+    range_ = max(y for _, y in rows) - min(y for _, y in rows)
+    off = max(abs(interpolate(run.col("us"), run.col(column), t) - y) for t, y in rows if t <= last)
+    return 100 * off / (range_ if share else 1)
+
+
+def two_blocks(quick, add):
+    """P8: halves together and apart; P9: the end of a bar."""
+    n = 12 if quick else 20
+    for kind, table in (("together", "powell_impact_approach.csv"), ("apart", "powell_impact_separation.csv")):
+        for form in FORMS:
+            run = Run("two_blocks", form=form, kind=kind, n=n, frames=100)
+            tag = f"P8 {kind}, {form}, n={n}"
+            target = 3.0 if form in HOLDS else None
+            add(f"{tag}: displacement 0.1 cm above the middle, off finite elements", "% of its range", target, [run],
+                lambda r, t=table: worst(r, "uy_A", t, "uy_NH", 9.9))
+            add(f"{tag}: kinetic energy, off finite elements", "% of the start", None, [run],
+                lambda r, t=table: worst(r, "kinetic_share", t, "KE_NH", 9.9, False))
+            add(f"{tag}: nearest pair", "dx", (">=", 0.6) if form in HOLDS else None, [run],
+                lambda r: min(r.col("closest")))
+            add(f"{tag}: widest gap", "dx", 2.0 if form in HOLDS else None, [run], lambda r: max(r.col("gap")))
+    total = Run("two_blocks", form="total", kind="bar", n=8, us=30, frames=100)
+    for form in FORMS[:-1]:
+        run = Run("two_blocks", form=form, kind="bar", n=8, us=30, frames=100)
+        add(f"P9 bar, {form}: length after 20 us, off the total-Lagrangian form's", "%", None, [run, total],
+            lambda a, b: 100 * abs(interpolate(a.col("us"), a.col("length"), 20) /
+                                   interpolate(b.col("us"), b.col("length"), 20) - 1))
+        add(f"P9 bar, {form}: widest gap", "dx", None, [run], lambda r: max(r.col("gap")))
+
+
+def clamped_beam(quick, add):
+    """P10: displacement of the middle of a beam that is struck."""
+    n = 12
+    for form in FORMS:
+        run = Run("clamped_beam", form=form, n=n, frames=75)
+        for column, ref in (("uy_bottom", "uy_bottom_NH_h_005_l_02"), ("uy_top", "uy_top_NH_h_005_l_02")):
+            add(f"P10 {form}, n={n}: {column}, off finite elements", "% of its range", 3.0 if form in HOLDS else None,
+                [run], lambda r, c=column, f=ref: worst(r, c, "powell_clamped_beam.csv", f, 14.9))
+
+
+GROUPS = [plane_waves, bars, squares, discs, two_blocks, clamped_beam]
 
 
 def cases(quick):

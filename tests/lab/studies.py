@@ -403,6 +403,7 @@ rings = Study(
      "total, cubic": dict(kernel="cubic"),
      "total, h 1.2": dict(h=1.2), "corrected, epsilon 0.3": dict(form="corrected", repulsion="principal"),
      "corrected, epsilon 0": dict(form="corrected"),
+     "stabilised, alpha 0.5": dict(form="stabilised", kernel="cubic", alpha=0.5, repulsion="none"),
      "Gray's own: alpha 0.5, epsilon 0.3": plus(solids.CASE_OF_GRAY, alpha=0.5, repulsion="principal"),
      "Gray's, epsilon 0": plus(solids.CASE_OF_GRAY, alpha=0.5),
      "Gray's, alpha 0": plus(solids.CASE_OF_GRAY, alpha=0, repulsion="principal")},
