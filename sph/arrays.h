@@ -32,6 +32,10 @@
     ONE(taken, uint8_t, c->max_particles, sph_has_flows(c), "ids in use") /* flow.c */                                \
     ONE(births, uint32_t, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_has_flows(c), "births of chunks")               \
     MANY(disorder, sph_real, SPH_DIM + 1, SPH_ROOM(c), sph_shifts(c), "disorder") /* shifting.c */                    \
+    ONE(damper_press, sph_real, SPH_ROOM(c), sph_quiets(c), "pressure of the damper")                                 \
+    ONE(damper_loss, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_quiets(c), "energy of the damper, of chunks") \
+    ONE(slowing, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_slows(c), "energy of damping, of chunks")       \
+    ONE(evening, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_evens(c), "energy of evening, of chunks")       \
     ONE(shifted, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_shifts(c), "energy of shifting, of chunks")     \
     /* SPH_PARTIALS of each chunk */                                                                                  \
     ONE(partial, double, (size_t)SPH_PARTIALS * (c->max_particles / SPH_LOCAL_CHUNK + 1), sph_keeps_books(c),         \

@@ -24,8 +24,8 @@ SPH_INLINE void sph_diffusion(const sph_choice *c, const sph_factors *f, const s
         if (SPH_HAS_APART && c->apart)
             dr = dr - f->hydro_offset;
     }
-    const vreal most = v_set(f->most_inv_rho), own = p->inv_rho;
-    const vreal inv_rho = sph_weak_scheme(c->scheme) ? v_select(v_less(most, own), most, own) : own;
+    const vreal least = v_set(f->least_rho), own = p->inv_rho; /* of densities below 0 too */
+    const vreal inv_rho = sph_weak_scheme(c->scheme) ? v_select(v_less(p->rho, least), 1 / least, own) : own;
     /* (rho_j - rho_i) x_ji . grad W = (rho_i - rho_j) r^2 g; the sum rho_i + rho_j in inv is taken out again */
     p->diff = dr * (p->r2 * p->inv * (h->rho + p->rho)) * p->mg * inv_rho * f->diff;
     s[SUM_DRHO] = s[SUM_DRHO] + (sph_rate_by_density(c->scheme, c->gradient) ? p->diff * h->inv_rho : p->diff);

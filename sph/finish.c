@@ -57,7 +57,7 @@ static void finish_powers(sph_sim *sim, const sph_thread *t, uint32_t h,
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         if (SPH_HAS_FORCE_WALLS && sim->has_force_wall)
             in -= t->sum[SUM_BOUNDARY][h][k] * t->home.v[k][h];
-        if (sph_uses_xsph(&sim->cfg) && !(sph_held(sim, set) >> k & 1) && !sph_flow_of(sim, set))
+        if (sph_drifts(&sim->cfg) && !(sph_held(sim, set) >> k & 1) && !sph_flow_of(sim, set))
             lost += f->gravity[k] * sim->buf[sim->dst].xsph[k][i];
     }
     if (SPH_HAS_LAYERED_WALLS)

@@ -143,7 +143,7 @@ static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 static bool carries(const sph_sim *sim)
 {
     return sph_keeps_fields(sim) || sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) ||
-           (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
+           (sph_in_middle(sim) && sph_drifts(&sim->cfg));
 }
 static const sph_pass pass_carry = {"carry", sph_local_chunks, carry_chunk, NULL, carries};
 
@@ -246,9 +246,12 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 /* a pass of a module, or null where that was left out */
 #define MODULE(knob, pass) ((knob) ? &(pass) : NULL)
 
-#define SORT &sph_pass_count, &sph_pass_scatter, &pass_carry, MODULE(SPH_WITH_FLOW, sph_pass_flow)
+#define SORT                                                                                                       \
+    &sph_pass_count, &sph_pass_scatter, &pass_carry, MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping),              \
+        MODULE(SPH_WITH_FLOW, sph_pass_flow)
 /* what a step begins with */
 #define BEGIN MODULE(SPH_WITH_FLOW, sph_pass_births), MODULE(SPH_WITH_FLOW, sph_pass_newcomers), &pass_begin
+#define QUIET MODULE(SPH_WITH_DAMPER, sph_pass_damper)
 #define DENSITIES                                                                                                  \
     MODULE(SPH_WITH_SHEPARD, sph_pass_shepard), MODULE(SPH_WITH_MLS, sph_pass_mls),                                \
         MODULE(SPH_WITH_SUMMATION, sph_pass_summation),                                                            \
@@ -266,14 +269,16 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 
 /* what a step ends with */
 #define END(pass)                                                                                                  \
-    &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge), MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
+    &(pass), MODULE(SPH_WITH_DAMPER, sph_pass_damper_book), MODULE(SPH_HAS_XSPH_VELOCITY, sph_pass_evening),      \
+        MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping_end), MODULE(SPH_WITH_SPONGE, sph_pass_sponge),             \
+        MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
 
 typedef const sph_pass *const list[];
 #define WEIGHTS MODULE(SPH_HAS_QUADRATURE, sph_pass_cover), MODULE(SPH_HAS_QUADRATURE, sph_pass_quadrature)
-static list first_forces = {&pass_begin, SORT, WEIGHTS, DENSITIES, FORCES, &pass_prime};
-static list predictor_corrector = {BEGIN, SORT, DENSITIES, FORCES, END(pass_correct)};
-static list kick_drift_kick = {BEGIN, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_kick)};
-static list leap_frog = {BEGIN, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
+static list first_forces = {&pass_begin, SORT, WEIGHTS, QUIET, DENSITIES, FORCES, &pass_prime};
+static list predictor_corrector = {BEGIN, SORT, QUIET, DENSITIES, FORCES, END(pass_correct)};
+static list kick_drift_kick = {BEGIN, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_kick)};
+static list leap_frog = {BEGIN, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_velocity)};
 static list runge_kutta = {BEGIN,              SORT, DENSITIES, FORCES, &pass_settle,
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),
                            SUM_AGAIN};

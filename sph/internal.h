@@ -93,7 +93,7 @@ typedef struct sph_factors {
     sph_real inv_h, eta, eta_morris, reach, reach2, slope, value;
     sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
-    sph_real most_inv_rho;       /* diffusion: of a neighbour, 2/rho0 (tiles.c) */
+    sph_real least_rho;          /* diffusion: of a neighbour, rho0/2 (tiles.c) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
     sph_real cover, weigh;       /* quadrature: slope over Q0, beta */
     bool rate_by_density, continuity, extras;
@@ -280,6 +280,11 @@ SPH_INLINE bool sph_has_any_mirrors(const sph_config *c)
 }
 SPH_INLINE bool sph_has_flows(const sph_config *c) { return SPH_WITH_FLOW && c->max_flows > 0; }
 SPH_INLINE bool sph_has_sponge(const sph_config *c) { return SPH_WITH_SPONGE && c->sponge_rate > 0; }
+SPH_INLINE bool sph_quiets(const sph_config *c) { return SPH_WITH_DAMPER && c->damper > 0; }
+SPH_INLINE bool sph_slows(const sph_config *c) { return SPH_WITH_DAMPING_RATE && c->damping_rate > 0; }
+SPH_INLINE bool sph_evens(const sph_config *c) { return SPH_HAS_XSPH_VELOCITY && c->xsph_velocity; }
+/* whether positions go with the XSPH velocity, too */
+SPH_INLINE bool sph_drifts(const sph_config *c) { return sph_uses_xsph(c) && !sph_evens(c); }
 SPH_INLINE bool sph_shifts(const sph_config *c) { return SPH_WITH_SHIFTING && c->shifting > 0; }
 SPH_INLINE bool sph_filters(const sph_config *c)
 {
@@ -335,6 +340,14 @@ SPH_INLINE const sph_flow_state *sph_flow_of(const sph_sim *sim, const sph_set *
     return SPH_WITH_FLOW && s->flow ? &sim->flow[s->flow - 1] : NULL;
 }
 SPH_INLINE bool sph_is_matter(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
+
+/* what positions drift with beside vel, along axis k; null in scenes where they do not */
+SPH_INLINE sph_real *sph_drift(const sph_sim *sim, const sph_buffer *b, uint32_t k)
+{
+    return sph_drifts(&sim->cfg) ? b->xsph[k] : NULL;
+}
+/* whether the sort under way is a step's first, from the current state; first forces are no step */
+SPH_INLINE bool sph_begins_step(const sph_sim *sim) { return sim->src == sim->cur && sim->now.primed; }
 
 /* ---- shared by files ---- */
 

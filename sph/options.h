@@ -21,6 +21,9 @@
 #define SPH_OPTIONS_H
 
 #include "flow.h"
+#include "damper.h"
+#include "damping.h"
+#include "evening.h"
 #include "shifting.h"
 #include "sponge.h"
 /* larger magnitudes are refused: squares of them must stay finite in a float's range */
@@ -152,6 +155,9 @@
     SPH_SHIFTING_OPTIONS(O, P, A)                                                                                     \
     SPH_FLOW_OPTIONS(O, P, A)                                                                                         \
     SPH_SPONGE_OPTIONS(O, P, A)                                                                                       \
+    SPH_DAMPER_OPTIONS(O, P, A)                                                                                       \
+    SPH_DAMPING_OPTIONS(O, P, A)                                                                                      \
+    SPH_EVENING_OPTIONS(O, P, A)                                                                                      \
     SPH_EXTRA_OPTIONS(O, P, A)
 
 /* members of sph_config */

@@ -218,6 +218,10 @@ sph_status sph_gauge(const sph_sim *sim, const double *x, uint32_t axis, double 
         return SPH_OK;
     line l = column_line(sim, x, axis, floor - dx, high + 2 * dx, false);
     *height = crossing(sim, &l, true, floor);
+    if (!(*height < l.from)) { /* wet where it began: once more from where nothing reaches */
+        l = column_line(sim, x, axis, floor - dx, high + sim->grid.support, false);
+        *height = crossing(sim, &l, true, floor);
+    }
     return SPH_OK;
 }
 
@@ -230,9 +234,9 @@ sph_status sph_surface(const sph_sim *sim, const double *bed, uint32_t axis, dou
     *height = bed[axis];
     if (!column_ends(sim, bed, axis, &low, &high))
         return SPH_OK;
-    if (bed[axis] < low - sim->grid.support)
+    if (bed[axis] + 0.5 * dx < low - sim->grid.support)
         return SPH_OK;
-    line l = column_line(sim, bed, axis, bed[axis] + 0.5 * dx, high + 2 * dx, true);
+    line l = column_line(sim, bed, axis, bed[axis] + 0.5 * dx, high + sim->grid.support, true);
     *height = crossing(sim, &l, false, l.to);
     if (!(*height > l.from)) /* dry */
         *height = bed[axis];

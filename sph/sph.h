@@ -38,7 +38,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-/* 1: without solids; 2: without sponges; 3: before `rise`, with fewer books; 4: before `lag`; 5: before flows */
+/* 1: no solids; 2: no sponges; 3: before `rise`, with fewer books; 4: before `lag`; 5: fewer books, no flows */
 #define SPH_VERSION 6u
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
@@ -239,6 +239,19 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
    sph_totals, with or without books (where density is summed, of the potential energy only). Not in scenes with
    solids. SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
 
+/* Acoustic damper, `damper` its theta, 0: off: in the momentum equation and in what Adami's walls see the pressure is
+   p + theta h c0 d(rho)/dt, at least 0 with the pressure floor: a bulk viscosity theta h c0, which sound feels and flow
+   without divergence does not (damper.c). What it takes of the energy is `quieted` in sph_totals, with or without books.
+   0.2 is usual; it shortens the step (factors.c). Predictor-corrector, kick-drift-kick, leap-frog; not with solids,
+   summed density or printed continuity. SPH_ARENA_BYTES: or in SPH_USE_DAMPER.
+
+   Damping by a rate in time, `damping_rate` r (1/s): dv/dt = -r v, exact and of second order in every integrator, for
+   whatever dt, unlike `damping`, which acts by steps; takes `slowed` (damping.c). SPH_ARENA_BYTES: or in SPH_USE_BOOKS.
+
+   XSPH in the velocity itself, `xsph_velocity`: once a step v_i += xsph sum (m_j/rho_mean) (v_j - v_i) W instead of a
+   drift of the positions (Powell 2012 eq 2.71); momentum stays; takes `evened` (evening.c). SPH_ARENA_BYTES: or in
+   SPH_USE_BOOKS. */
+
 /* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
    (any of the four; PUT_BACK sets it 0.1 spacings off the wall, without its velocity into the wall). */
 enum { SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE, SPH_POLICIES };
@@ -322,6 +335,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_SHIFTING 1024u
 #define SPH_USE_QUADRATURE 2048u /* face_quadrature */
 #define SPH_USE_SHEAR 4096u /* a viscous stress of fluids */
+#define SPH_USE_DAMPER 8192u
 #define SPH_USE_FLOW 16384u /* max_flows > 0 */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
@@ -340,7 +354,8 @@ size_t sph_arena_bytes(const sph_config *cfg);
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_SHEAR) ? (SPH_DIM * SPH_DIM + 1u) * SPH_REAL_ : 0u) +                                  \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
-     (((use)&SPH_USE_FLOW) ? 2u : 0u) + (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
+     (((use)&SPH_USE_DAMPER) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_FLOW) ? 2u : 0u) +                         \
+     (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
 /* sums of a velocity gradient, or of shifting */
 #define SPH_TENSOR_SUMS_                                                                                    \
@@ -360,7 +375,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FLOW) ? 2048u : 0u) +                                                                  \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
-         (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING)) ? 64u : 0u))
+         (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING | SPH_USE_DAMPER)) ? 64u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
 #ifdef __cplusplus
 #define SPH_ARENA(name, bytes) unsigned char name alignas(SPH_ALIGN)[bytes]
@@ -430,6 +445,30 @@ typedef struct sph_table {
 } sph_table;
 #define sph_motion_table SPH_NAME(motion_table)
 void sph_motion_table(void *ctx, double t, double *displacement, double *velocity);
+
+/* A motion given by velocities, linear between rows, from rest before the first row (a jump to v[0] if that is not 0);
+   after the last it goes on with the last one. The displacement is their integral, exactly. Pass sph_motion_programme
+   and a pointer to this. Times must increase; without rows, or with an axis that there is not, there is rest. */
+typedef struct sph_programme {
+    uint32_t rows, axis;
+    const double *t, *v; /* s, m/s */
+} sph_programme;
+#define sph_motion_programme SPH_NAME(motion_programme)
+void sph_motion_programme(void *ctx, double t, double *displacement, double *velocity);
+
+/* A motion given as a table through which goes a cubic spline, so that velocity and acceleration are continuous
+   between its ends; rest before the first row and after the last, where the velocity is 0. Pass sph_motion_spline and a
+   pointer to this. sph_spline_make fills `bend` (2 rows long: accelerations at the rows, and room to find them); false:
+   fewer than two rows, times that do not increase, or what is not finite or beyond 1e15. */
+typedef struct sph_spline {
+    uint32_t rows, axis;
+    const double *t, *x; /* s, m */
+    const double *bend;  /* what sph_spline_make has found; null: rest */
+} sph_spline;
+#define sph_spline_make SPH_NAME(spline_make)
+bool sph_spline_make(const sph_spline *spline, double *bend);
+#define sph_motion_spline SPH_NAME(motion_spline)
+void sph_motion_spline(void *ctx, double t, double *displacement, double *velocity);
 
 /* A motion from rest at time 0: displacement v t + a t^2/2 on each axis. Pass sph_motion_steady and a pointer to
    this. */
@@ -631,6 +670,14 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
 /* A straight wall from a to b; the fluid is on its left. */
 #define sph_add_wall_segment SPH_NAME(add_wall_segment)
 sph_status sph_add_wall_segment(sph_sim *sim, const sph_wall *wall, const double *a, const double *b, uint32_t *group);
+/* A bed: straight walls through n points (m), one group; the fluid is on the left of the way along them. Layers run on
+   round the corners, mitred there, with a particle on each mitre: none is doubled and none is left out, and a corner of
+   a box has the particles of sph_add_wall_box. Uses 2 n - 3 sets. Refused: fewer than two points, turns of more than a
+   right angle, and pieces so short that a layer would fold at their corners or an end be shorter than a spacing (each
+   layer wants half a spacing and more between two corners). */
+#define sph_add_wall_polyline SPH_NAME(add_wall_polyline)
+sph_status sph_add_wall_polyline(sph_sim *sim, const sph_wall *wall, const double (*points)[SPH_DIM], uint32_t n,
+                                 uint32_t *group);
 #endif
 #if SPH_DIM == 3
 /* A flat wall: the parallelogram origin + s e1 + t e2; the fluid is on the side of e1 x e2. */
@@ -731,11 +778,14 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges, inspection -----------------------------------------------------------------------*/
 /* Books of what happens at once, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
-   the state, its digest and dumps follow from the list. `c`: the configuration. The first three are kept in every
+   the state, its digest and dumps follow from the list. `c`: the configuration. The first six are kept in every
    scene, the others where the scene asks for books. */
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", SPH_WITH_SPONGE && c->sponge_rate > 0, "kinetic energy that sponge layers took")                 \
     X(shifted, "J", SPH_WITH_SHIFTING && c->shifting > 0, "energy that shifting took; < 0: gave")                     \
+    X(quieted, "J", SPH_WITH_DAMPER && c->damper > 0, "energy that the acoustic damper took")                         \
+    X(slowed, "J", SPH_WITH_DAMPING_RATE && c->damping_rate > 0, "kinetic energy that damping_rate took")                                                    \
+    X(evened, "J", SPH_HAS_XSPH_VELOCITY && c->xsph_velocity, "kinetic energy that xsph_velocity took")               \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
     X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                             \
     X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")             \
@@ -749,8 +799,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
      d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes,
    to rounding; the powers are integrated over time by the trapezoidal rule, and
      balance = kinetic + potential + internal + elastic + plastic_work - wall_work - body_work + dissipated + diffused
-             + in_walls + in_bonds + unbalanced + absorbed + shifted + carried_off + released + put_back_loss
-             + filtered + damped - fed
+             + in_walls + in_bonds + unbalanced + absorbed + shifted + quieted + slowed + evened + carried_off
+             + released + put_back_loss + filtered + damped - fed
    stays (plastic_work to first order in dt; gravity changed by sph_reconfigure shifts the potential). Without books it
    is what can be summed without them. `unbalanced` is 0 but for DIRECT, the printed continuity forms, WEAK schemes with
    summed density, MIRROR_NO_SLIP, xsph_strain, the drift of XSPH in gravity, and solids, whose Jaumann rate stores

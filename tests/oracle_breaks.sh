@@ -57,8 +57,8 @@ break_it wall_work 'wall power' sph/pair_power.h 's/(apart ? p->push\[k\] + othe
 break_it beta_max acceleration sph/viscosity.h 's/half = v_set((sph_real)0.5)/half = v_set((sph_real)0.6)/'
 break_it half_way 'density after steps' sph/integrators.c \
     's/half_way = {0.5, 0, 0.5, 0.5/half_way = {0.5, 0, 0.5, 0.45/'
-break_it bounce 'velocity after steps' sph/faces.c \
-    's/            v\[k\] = -v\[k\];/            v[k] = -v[k] * (sph_real)0.99;/'
+break_it bounce 'velocity after steps' sph/move.c \
+    's/SPH_TURNS_VECTORS << k ? -v\[k\] : v/SPH_TURNS_VECTORS << k ? (sph_real)-0.99 * v[k] : v/'
 break_it wall_acceleration 'wall density' sph/adami.c 's/(sim->cfg.gravity\[k\] - a)/sim->cfg.gravity[k]/'
 break_it contact_energy 'balance of powers' sph/reference.h \
     's/s\[SUM_IN_BONDS\] + p->force/s[SUM_IN_BONDS] + 0 * p->force/'

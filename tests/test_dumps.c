@@ -41,6 +41,7 @@ static struct {
     uint64_t next;  /* hash after one more step */
     snapshot s;
     tape dump;      /* of three steps earlier: taking it would show */
+    sph_report refusal; /* of what was offered last */
 } bed;
 
 static void sway(void *ctx, double t, double *x, double *v)
@@ -135,7 +136,8 @@ static sph_status offer(unsigned char *bytes, size_t n, const char *how, size_t 
 {
     tape t = {bytes, n, 0};
     const sph_status st = sph_restore(bed.sim, play, &t);
-    if (!is_dump_status(st) || sph_last(bed.sim)->status != st)
+    bed.refusal = *sph_last(bed.sim);
+    if (!is_dump_status(st) || bed.refusal.status != st)
         fail_msg("%s at byte %zu: %s", how, at, sph_status_text(st));
     if (!state_same(bed.sim, &bed.s))
         fail_msg("%s at byte %zu: refused, but the simulation has changed", how, at);
@@ -233,6 +235,14 @@ static void put_real(unsigned char *p, double x)
         p[i] = (unsigned char)(u >> 8 * i);
 }
 
+/* a refusal names the field, not its number, and whose it is: that of the first particle of the array */
+static void is_named(const char *field)
+{
+    if (!bed.refusal.what || strcmp(bed.refusal.what, field) != 0)
+        fail_msg("a wrong %s is refused as '%s'", field, bed.refusal.what ? bed.refusal.what : "nothing");
+    assert_int_equal(bed.refusal.particle, crc_get(changed_bytes + section("id") + 64));
+}
+
 static void impossible_values_are_refused_though_checksums_are_right(void **state)
 {
     static const char *const water[] = {"vel", "rho", "acc", "drho", "xsph"};
@@ -252,6 +262,7 @@ static void impossible_values_are_refused_though_checksums_are_right(void **stat
                      bad == 3 ? 1.01 : -0.01);
             mend(bed.dump.n);
             assert_int_equal(offer(changed_bytes, bed.dump.n, reals[k], at, true), SPH_DUMP_CORRUPT);
+            is_named(reals[k]);
         }
     static const struct {
         const char *name;
@@ -264,6 +275,7 @@ static void impossible_values_are_refused_though_checksums_are_right(void **stat
         changed_bytes[at] = (unsigned char)odd[k].value;
         mend(bed.dump.n);
         assert_int_equal(offer(changed_bytes, bed.dump.n, odd[k].name, at, true), SPH_DUMP_CORRUPT);
+        is_named(odd[k].name);
     }
     for (int high = 0; high < 2 && bed.rock; high++) { /* further from its beginning than half the domain */
         const size_t at = section("shift") + 64 + sizeof(sph_pos) - 1;
@@ -271,6 +283,7 @@ static void impossible_values_are_refused_though_checksums_are_right(void **stat
         changed_bytes[at] = high ? 0x7f : 0x80;
         mend(bed.dump.n);
         assert_int_equal(offer(changed_bytes, bed.dump.n, "shift", at, true), SPH_DUMP_CORRUPT);
+        is_named("shift");
     }
     memcpy(changed_bytes, true_bytes, bed.dump.n); /* two particles of one id */
     memcpy(changed_bytes + section("id") + 64, changed_bytes + section("id") + 68, 4);

@@ -45,7 +45,7 @@ static void rise_of(const o_scene *s, const o_particle *p, o_sum *o)
     const o_set *set = &s->set[p->set];
     const double m = set->mass, per = -o_diffused_per_rate(s, p), whole = o_phi(p) * (1 - pow(p->root, SPH_DIM));
     for (int k = 0; k < SPH_DIM; k++) {
-        const double g = s->cfg.gravity[k], drift = s->cfg.xsph > 0 ? p->drift[k].v : 0;
+        const double g = s->cfg.gravity[k], drift = o_drifts(s) ? p->drift[k].v : 0;
         o_add(o, m * p->a[k].v * p->v[k], m * p->a[k].s * fabs(p->v[k]));
         o_add(o, -m * g * (p->v[k] + drift), m * fabs(g) * (fabs(p->v[k]) + fabs(drift)));
     }
@@ -58,6 +58,21 @@ static void rise_of(const o_scene *s, const o_particle *p, o_sum *o)
             if (o_is_solid(s, p) && set->shear > 0)
                 o_add(o, whole * m / set->rho0 * p->dev[k][l] * p->stress_rate[k][l].v / (2 * set->shear),
                       whole * m / set->rho0 * fabs(p->dev[k][l]) * p->stress_rate[k][l].s / (2 * set->shear));
+}
+
+double o_energy_of(const o_scene *s, const o_particle *p)
+{
+    const o_set *set = &s->set[p->set];
+    const bool solid = o_is_solid(s, p);
+    const double m = set->mass, whole = p->d < 0 && solid ? 1 - pow(p->root, SPH_DIM) : 1;
+    o_totals o = {0};
+    double sum = 0.5 * m * o_dot(p->v, p->v);
+    for (int k = 0; k < SPH_DIM; k++)
+        sum -= m * s->cfg.gravity[k] * p->x[k];
+    sum += m * o_phi(p) * whole * o_energy(set->eos, set->rho0, set->c0, p->d, s->cfg.pressure_floor && !solid);
+    if (solid)
+        solid_totals(s, p, &o);
+    return sum + o.elastic.v + o.plastic.v;
 }
 
 o_totals o_find_totals(const o_scene *s)

@@ -166,7 +166,7 @@ static void compare_limits(const sph_sim *sim, const o_scene *s)
     } of[] = {{"courant limit", "courant", l.courant, l.courant_scale},   {"viscous limit", "viscous", l.viscous, 1},
               {"force limit", "force", l.force, force_scale(s)}, {"gravity limit", "gravity", l.gravity, 1},
               {"diffusion limit", "diffusi", l.diffusion, 1}};
-    for (size_t k = 0; k < sizeof of / sizeof *of; k++)
+    for (size_t k = l.courant_undecided; k < sizeof of / sizeof *of; k++)
         check(of[k].name, SPH_NO_PARTICLE, 0, look_limit(sim, of[k].part), (o_sum){of[k].v, of[k].v * of[k].scale}, 0);
 }
 
@@ -223,11 +223,7 @@ static void compare_gauges(const sph_sim *sim, o_scene *s, const double *x, uint
     const double quarter = 0.25 * s->cfg.spacing, lo = s->cfg.lo[axis], hi = s->cfg.hi[axis];
     const bool open = s->cfg.face[axis][0] == SPH_OPEN && s->cfg.face[axis][1] == SPH_OPEN;
     double height = 0, run = 0;
-    double top = -1e300;
-    for (uint32_t i = 0; i < s->n; i++)
-        top = o_is_body(s, &s->own[i]) ? o_max(top, s->own[i].x[axis]) : top;
-    /* it begins two spacings above the highest particle */
-    if (sph_gauge(sim, x, axis, &height) != SPH_OK || !open || cover_at(s, x, axis, top + 2 * s->cfg.spacing) >= 0.4)
+    if (sph_gauge(sim, x, axis, &height) != SPH_OK || !open)
         return;
     for (double y = o_max(height, lo) + quarter; y < hi + s->support; y += quarter / PARTS) {
         run = cover_at(s, x, axis, y) >= 0.5 + 1e-5 ? run + quarter / PARTS : 0;
@@ -255,6 +251,34 @@ static void compare_gauges(const sph_sim *sim, o_scene *s, const double *x, uint
 #endif
 }
 
+/* From half a spacing above the bed on no quarter of a spacing may be dry below the surface, and there cover passes 1/2,
+   unless it does so nowhere below a face with images; or that half spacing is dry, and it is the bed. */
+static void compare_surface(const sph_sim *sim, o_scene *s, const double *bed, uint32_t axis)
+{
+    enum { PARTS = 8 };
+    const double dx = s->cfg.spacing, quarter = 0.25 * dx, start = bed[axis] + 0.5 * dx;
+    const double first = cover_at(s, bed, axis, start);
+    double height = 0, run = 0, most = 0, least = 1e300;
+    if (sph_surface(sim, bed, axis, &height) != SPH_OK || fabs(first - 0.5) < 1e-4 || start > s->cfg.hi[axis])
+        return;
+    if (first < 0.5) {
+        check("surface of a dry bed", 1, axis, height, exact(bed[axis]), dx);
+        return;
+    }
+    check("surface below the bed", 1, axis, height < start, (o_sum){0, 1}, 0);
+    for (double y = start; y < height - quarter; y += quarter / PARTS) {
+        run = cover_at(s, bed, axis, y) < 0.5 - 1e-5 ? run + quarter / PARTS : 0;
+        check("surface above a gap", 1, axis, run > quarter * 1.01, (o_sum){0, 1}, 0);
+    }
+    for (int k = -PARTS; k <= PARTS; k++) {
+        const double cover = cover_at(s, bed, axis, height + quarter * k / PARTS);
+        most = o_max(most, cover);
+        least = o_min(least, cover);
+    }
+    if (s->cfg.face[axis][1] == SPH_OPEN || height < s->cfg.hi[axis] - quarter)
+        check("surface where nothing ends", 1, axis, most < 0.5 - 1e-5 || least > 0.5 + 1e-5, (o_sum){0, 1}, 0);
+}
+
 static void compare_probes(const sph_sim *sim, const plan *p, o_scene *s)
 {
     for (uint32_t i = 0; i < p->probes; i++) {
@@ -271,6 +295,8 @@ static void compare_probes(const sph_sim *sim, const plan *p, o_scene *s)
     }
     if (p->probes)
         compare_gauges(sim, s, p->probe[0], (uint32_t)(p->seed % SPH_DIM));
+    if (p->probes > 1)
+        compare_surface(sim, s, p->probe[1], (uint32_t)(p->seed % SPH_DIM));
 }
 
 /* ---- a step of nearly no time ---- */
@@ -295,6 +321,9 @@ static void compare_still(const sph_sim *sim, o_scene *s, double dt)
             s->undecided = "a particle leaves";
             return;
         }
+    double rate = 0; /* by which densities changed at most, before the filter mixed them */
+    for (uint32_t i = 0; i < s->n; i++)
+        rate = o_max(rate, o_max(fabs(kernel[s->own[i].id].rate), fabs(before[s->own[i].id].rate)));
     if (s->cfg.shepard_every)
         o_filter_density(s);
     for (uint32_t i = 0; i < s->n; i++) {
@@ -304,8 +333,7 @@ static void compare_still(const sph_sim *sim, o_scene *s, double dt)
         if (!o_is_body(s, p) || on_a_face(s, p))
             continue;
         if (s->cfg.shepard_every)
-            check("filtered density", p->id, 0, k->d, p->density,
-                  100 * dt * (fabs(k->rate) + fabs(before[p->id].rate)) / TOLERANCE);
+            check("filtered density", p->id, 0, k->d, p->density, 100 * dt * rate / TOLERANCE);
         for (uint32_t c = 0; c < SPH_DIM; c++) {
             const bool held = set->held >> c & 1;
             const double ref = s->cfg.sponge_velocity[c], f = held ? 1 : exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);
@@ -329,7 +357,17 @@ static void compare_still(const sph_sim *sim, o_scene *s, double dt)
 static const sph_sim *looked_at;
 static uint32_t flaws_of(uint32_t id, float *threshold) { return look_flaws(looked_at, id, threshold); }
 
-static o_sum near(double v, double scale) { return (o_sum){v, scale * APART / TOLERANCE}; }
+/* errors of all steps, by that of one state */
+#define ERRORS 10
+
+static o_spread spread;  /* where the scene is badly conditioned (condition.c), else 0 */
+static bool all_is_lost; /* and so badly that nothing can be said */
+
+static o_sum near(double v, double scale, double grown)
+{
+    all_is_lost |= !(ERRORS * grown <= 0.03 * scale);
+    return (o_sum){v, (scale * APART + ERRORS * grown) / TOLERANCE};
+}
 
 /* m g dx and m c^2 d, J: what errors of places and densities make of energies; at rest a gas has a pressure */
 static double heat_of(const o_scene *s)
@@ -346,33 +384,70 @@ static double heat_of(const o_scene *s)
     return sum;
 }
 
+/* Who is still there, who was put back, and what they took along. A particle that leaves at the end of a step has an
+   energy between its beginning's and its end's: with XSPH and in Runge-Kutta. */
+static void compare_the_gone(const sph_sim *sim, const o_scene *s)
+{
+    const bool rk = s->cfg.integrator == SPH_RUNGE_KUTTA || s->cfg.integrator == SPH_RUNGE_KUTTA_MOMENTUM;
+    uint32_t there = 0, missed = 0;
+    sph_step_info info;
+    sph_totals t;
+    sph_get_step(sim, &info);
+    sph_get_totals(sim, &t);
+    for (uint32_t id = 0; id < 4096; id++)
+        there += kernel[id].there;
+    for (uint32_t i = 0; i < s->n; i++)
+        missed += !kernel[s->own[i].id].there;
+    check("particles that are there", SPH_NO_PARTICLE, 0, there + missed, (o_sum){s->n, 0}, 0);
+    check("particles that left", SPH_NO_PARTICLE, 0, info.left, (o_sum){s->left, 0}, 0);
+    check("particles in walls", SPH_NO_PARTICLE, 0, info.crossed, (o_sum){s->crossed, 0}, 0);
+    check("particles put back", SPH_NO_PARTICLE, 0, info.put_back, (o_sum){s->put_back, 0}, 0);
+    if (!s->cfg.books || missed)
+        return;
+    const double heat = heat_of(s) + s->carried_off.s + s->put_back_loss.s;
+    check("put back's book", SPH_NO_PARTICLE, 0, t.put_back_loss, near(s->put_back_loss.v, heat, 0), 0);
+    if (s->left == 0 || !(rk || s->cfg.xsph > 0))
+        check("carried off", SPH_NO_PARTICLE, 0, t.carried_off, near(s->carried_off.v, heat, 0), 0);
+}
+
 static void compare_trajectories(const sph_sim *sim, const o_scene *s)
 {
     look_results(sim, kernel, 4096);
+    compare_the_gone(sim, s);
     for (uint32_t i = 0; i < s->n; i++) {
         const o_particle *p = &s->own[i];
         const o_set *set = &s->set[p->set];
         const seen *k = &kernel[p->id];
         const bool body = o_is_body(s, p);
         for (uint32_t c = 0; c < SPH_DIM; c++) {
-            check("place after steps", p->id, c, k->x[c], near(p->x[c], s->cfg.spacing), 0);
+            check("place after steps", p->id, c, k->x[c], near(p->x[c], s->cfg.spacing, spread.x), 0);
             if (body)
-                check("velocity after steps", p->id, c, k->v[c], near(p->v[c], set->c0 + fabs(p->v[c])), 0);
+                check("velocity after steps", p->id, c, k->v[c], near(p->v[c], set->c0 + fabs(p->v[c]), spread.v), 0);
         }
         if (body || set->compressible)
-            check("density after steps", p->id, 0, k->d, near(p->d, 1), 0);
+            check("density after steps", p->id, 0, k->d, near(p->d, 1, spread.d), 0);
         if (!o_is_solid(s, p))
             continue;
         for (int c = 0; c < KEPT; c++)
             check("stress after steps", p->id, (uint32_t)c, k->dev[c],
-                  near(kept((const double(*)[3])p->dev, c), set->shear), 0);
-        check("plastic strain after steps", p->id, 0, k->plastic, near(p->plastic, 1), 0);
-        check("damage after steps", p->id, 0, k->root, near(p->root, 1), 0);
+                  near(kept((const double(*)[3])p->dev, c), set->shear, spread.dev), 0);
+        check("plastic strain after steps", p->id, 0, k->plastic, near(p->plastic, 1, spread.plastic), 0);
+        check("damage after steps", p->id, 0, k->root, near(p->root, 1, spread.root), 0);
     }
     sph_totals t;
     sph_get_totals(sim, &t);
+    if (s->cfg.damper > 0)
+        check("book of the damper", SPH_NO_PARTICLE, 0, t.quieted,
+              near(s->quieted.v, s->quieted.s + heat_of(s), spread.quieted), 0);
+    if (s->cfg.damping_rate > 0)
+        check("book of damping", SPH_NO_PARTICLE, 0, t.slowed,
+              near(s->slowed.v, s->slowed.s + heat_of(s), spread.slowed), 0);
+    if (s->cfg.xsph_velocity)
+        check("book of evening", SPH_NO_PARTICLE, 0, t.evened,
+              near(s->evened.v, s->evened.s + heat_of(s), spread.evened), 0);
     if (s->cfg.shifting > 0)
-        check("book of shifting", SPH_NO_PARTICLE, 0, t.shifted, near(s->shifted.v, s->shifted.s + heat_of(s)), 0);
+        check("book of shifting", SPH_NO_PARTICLE, 0, t.shifted,
+              near(s->shifted.v, s->shifted.s + heat_of(s), spread.shifted), 0);
 }
 
 /* a tenth of the smallest limit */
@@ -387,14 +462,32 @@ static double small_step(const o_scene *s)
     return 0.1 * dt;
 }
 
+/* Once more, where trajectories differ, within what rounding makes of them. */
+static void compare_ends(const sph_sim *sim, const o_scene *start, o_scene *s, uint32_t steps, double dt)
+{
+    const uint32_t so_far = founds;
+    spread = (o_spread){0};
+    compare_trajectories(sim, s);
+    if (founds == so_far)
+        return;
+    founds = so_far;
+    spread = o_find_spread(start, s, steps, dt, flaws_of);
+    all_is_lost = false;
+    compare_trajectories(sim, s);
+    if (all_is_lost)
+        s->undecided = "rounding errors that grow without bound";
+}
+
 static sph_status run_steps(sph_sim *sim, const plan *p, o_scene *s)
 {
+    static o_scene start;
     sph_status st = SPH_OK;
     look_scene(sim, p, s);
     o_forces(s);
     const double dt = small_step(s);
     s->cfg.dt = dt;
     looked_at = sim;
+    o_keep(&start, s);
     st = sph_reconfigure(sim, &s->cfg);
     o_begin_steps(s, s->n);
     for (uint32_t k = 1; !st && k <= p->steps && !s->undecided; k++) {
@@ -402,7 +495,7 @@ static sph_status run_steps(sph_sim *sim, const plan *p, o_scene *s)
         o_step(s, k, dt, flaws_of);
     }
     if (!st && !s->undecided)
-        compare_trajectories(sim, s);
+        compare_ends(sim, &start, s, p->steps, dt);
     return st;
 }
 

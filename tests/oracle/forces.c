@@ -18,7 +18,7 @@ static void begin(const o_scene *s, o_particle *i)
 {
     const o_sum none = {0, 0};
     i->rate = i->viscous = i->worked = i->diffused = i->pushed = none;
-    i->mu = 0;
+    i->mu = i->mu_at_edge = 0;
     for (int k = 0; k < 3; k++) {
         i->a[k] = none;
         if (!s->cfg.xsph_strain || !o_has_solids(s))
@@ -65,10 +65,24 @@ static void ghost_pair(o_scene *s, o_particle *i, const o_particle *j)
         o_continuity(s, i, j, &p);
 }
 
+/* the body force, and how large what it was added up from is: by what a thousandth of the velocity changes in it */
+static void find_push(const o_scene *s, const o_particle *i, double *own, double *size)
+{
+    double faster[3], other[SPH_DIM] = {0};
+    if (!s->cfg.body_force)
+        return;
+    for (int k = 0; k < 3; k++)
+        faster[k] = 1.001 * i->v[k];
+    s->cfg.body_force(s->cfg.body_ctx, s->time, i->x, i->v, own);
+    s->cfg.body_force(s->cfg.body_ctx, s->time, i->x, faster, other);
+    for (int k = 0; k < SPH_DIM; k++)
+        size[k] = fabs(own[k]) + 1000 * fabs(other[k] - own[k]);
+}
+
 static void end(const o_scene *s, o_particle *i)
 {
     const o_set *set = &s->set[i->set];
-    double own[SPH_DIM] = {0};
+    double own[SPH_DIM] = {0}, size[SPH_DIM] = {0};
     if (o_has_solids(s))
         o_strain_rates(s, i);
     if (s->cfg.density == SPH_SUMMATION)
@@ -76,12 +90,11 @@ static void end(const o_scene *s, o_particle *i)
     o_add(&i->rate, i->diffused.v, i->diffused.s);
     if (!o_is_body(s, i))
         return;
-    if (s->cfg.body_force)
-        s->cfg.body_force(s->cfg.body_ctx, s->time, i->x, i->v, own);
+    find_push(s, i, own, size);
     for (int k = 0; k < SPH_DIM; k++) {
         o_plus(&i->a[k], s->cfg.gravity[k]);
-        o_plus(&i->a[k], own[k]);
-        o_plus(&i->pushed, own[k] * i->v[k]);
+        o_add(&i->a[k], own[k], size[k]);
+        o_add(&i->pushed, own[k] * i->v[k], size[k] * fabs(i->v[k]));
         if (set->role != SPH_ROLE_SOLID || !(set->held >> k & 1))
             continue;
         o_add(&i->worked, -i->a[k].v * set->velocity[k], i->a[k].s * fabs(set->velocity[k]));

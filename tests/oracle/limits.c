@@ -10,20 +10,20 @@
    In the total form the configuration's sound speed counts too: contact pushes with it.
    The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25; beside
    solids 0.22 times the cube root of (delta + nu/(h c) or alpha/8)/(0.01/8), times 0.75 (updated) or 0.42, but 0.05 at
-   least. */
+   least. With the damper 1.5/(1 + 2 theta) at most, in the predictor-corrector 1/(1 + 4 theta) of what it stands else. */
 #include "oracle.h"
 
 double o_courant_number(const sph_config *c)
 {
     double d = c->diffusion ? c->delta : 0;
     if (c->integrator != SPH_PREDICTOR_CORRECTOR)
-        return c->cfl;
+        return c->damper > 0 ? o_min(c->cfl, 1.5 / (1 + 2 * c->damper)) : c->cfl;
     if (c->viscosity == SPH_MORRIS)
         d += c->nu / (c->smoothing_length * c->sound_speed);
     else if (c->viscosity)
         d += c->alpha / 8;
     if (!c->solid)
-        return o_min(c->cfl, c->gradient ? 0.25 : 0.5);
+        return o_min(c->cfl, (c->gradient ? 0.25 : 0.5) / (1 + 4 * c->damper));
     const double x = d / (0.01 / 8), stands = x < 1e-3 ? 0 : 0.22 * cbrt(o_min(x, 1e6));
     return o_min(c->cfl, o_max(stands * (c->solid >= SPH_CORRECTED ? 0.42 : 0.75), 0.05));
 }
@@ -40,9 +40,9 @@ o_limits o_find_limits(const o_scene *s)
 {
     const sph_config *c = &s->cfg;
     const double h = c->smoothing_length;
-    o_limits l = {0, 0, 0, 0, 0, 0};
+    o_limits l = {0};
     l.courant_scale = 1;
-    double sound = c->solid == SPH_TOTAL ? c->sound_speed : 0, nominal = sound, mu = 0, a = 0, g2 = 0;
+    double sound = c->solid == SPH_TOTAL ? c->sound_speed : 0, nominal = sound, mu = 0, edge = 0, a = 0, g2 = 0;
     for (uint32_t k = 0; k < s->sets; k++) {
         const o_set *set = &s->set[k];
         const double own = o_sound(set->eos, set->c0);
@@ -55,6 +55,7 @@ o_limits o_find_limits(const o_scene *s)
         if (!o_is_body(s, p))
             continue;
         mu = o_max(mu, p->mu);
+        edge = o_max(edge, p->mu_at_edge);
         if (c->shear != SPH_NO_SHEAR && p->eddy > mu) {
             mu = p->eddy;
             l.courant_scale = p->eddy_scale;
@@ -68,6 +69,8 @@ o_limits o_find_limits(const o_scene *s)
     const double nu = c->viscosity == SPH_MORRIS ? c->nu
                     : (c->viscosity ? c->alpha * nominal * h / (2 * (SPH_DIM + 2)) : 0) +
                       (c->shear ? c->nu : 0);
+    l.courant_undecided = h * edge > h * mu + (SPH_DOUBLE ? 1e-13 : 1e-7) * sound;
+    mu = o_max(mu, edge);
     l.courant = o_courant_number(c) * h / (sound + h * mu);
     l.viscous = nu > 0 ? c->viscous_factor * h * h / nu : 0;
     l.force = a > 0 ? c->force_factor * sqrt(h / a) : 0;

@@ -158,6 +158,8 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
         o->normal[a] = s->normal[a];
         o->tangent[a] = s->tangent[a];
     }
+    o->region = s->role != SPH_ROLE_FLUID && s->role != SPH_ROLE_SOLID && !s->corner;
+    o->thick = o->region ? s->thick : 0;
     if (s->role != SPH_ROLE_SOLID)
         return;
     const sph_material *m = &sim->material[k];

@@ -38,7 +38,7 @@ typedef struct o_set {
     uint32_t role, kind, eos; /* SPH_ROLE_..., SPH_WALL_..., SPH_TAIT ... */
     bool compressible, no_slip;
     uint32_t side;                            /* SPH_BOTH_SIDES ... */
-    double half[2];                           /* m: of its face, along tangents */
+    double half[2];                           /* m: of walls, to both sides of the middle of the face, along tangents */
     double mass, rho0, c0, strength;          /* kg, kg/m^3, m/s; of walls as in sph_wall */
     double origin[3], normal[3], tangent[3];  /* of walls: a point of the face (m), into the fluid, along the face */
     double start[3], accel[3];                /* motion v t + a t^2/2 of what moves as it is told */
@@ -48,11 +48,14 @@ typedef struct o_set {
     double shear, yield, hardening, crack;    /* Pa, Pa, Pa, 1/s */
     uint32_t body, held;
     bool flat;
+    bool region;                              /* of walls: whether there is one behind the face, */
+    double thick;                             /* so thick, m */
 } o_set;
 
 typedef struct o_particle {
     uint32_t id, set;
     bool image;
+    bool gone;                 /* left, or was removed: as if it had never been */
     /* state */
     double x[3], v[3], d;      /* m, m/s, (rho - rho0)/rho0 */
     double rest[3];            /* reference position (m) */
@@ -77,6 +80,7 @@ typedef struct o_particle {
     double pull[3][3];         /* artificial stress R */
     double cover;              /* Q of the quadrature weights */
     o_sum phi;                 /* the weight; 0: 1 */
+    double quiet;              /* Pa, pressure of the damper */
     double way[3];             /* how its place moves: v + xsph, m/s */
     double beside[3];          /* xsph alone */
     /* results */
@@ -89,7 +93,7 @@ typedef struct o_particle {
     o_sum viscous, worked, pushed; /* powers for the books, W/kg */
     o_sum gradient[3][3];      /* sum m_j v_ij (x) K g (weak: m_j/rho_j), of which L is made */
     o_sum disorder[3], filling; /* shifting: minus the slope of disorder (1/m), cover less 1; 0 where it acts not */
-    double mu;                 /* largest |mu| of its pairs */
+    double mu, mu_at_edge;     /* largest |mu| of its pairs; of those that rounding may take for none */
 } o_particle;
 
 typedef struct o_scene {
@@ -102,7 +106,10 @@ typedef struct o_scene {
     o_particle *all;           /* m: the particles and then the images */
     uint32_t room;
     double fastest;            /* m/s: of the bodies, when the last forces were made */
+    o_sum quieted, slowed, evened; /* J, what damper, damping by a rate and XSPH in the velocity took, likewise */
     o_sum shifted;             /* J, what shifting took since o_begin_steps */
+    uint32_t left, crossed, put_back; /* particles since o_begin_steps, and their energies, J */
+    o_sum carried_off, put_back_loss;
     const char *undecided;     /* a choice that rounding decides (a pair exactly at a kernel's edge ...), or null */
 } o_scene;
 
@@ -157,6 +164,7 @@ typedef struct o_pair {
     double g, w;              /* (dW/dr)/|K|, W at |K|; g is 0 at |K| = 0 */
     double slope, value;      /* magnitudes of grad W and W for the scale of errors */
     bool apart, bond;         /* of two bodies; of one body, seen in the reference position */
+    bool edge;                /* so near to the support's end, from within or without, that rounding decides */
     double volume;            /* m_j/rho_j */
 } o_pair;
 bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p); /* false: beyond the support */
@@ -192,6 +200,11 @@ double o_largest_principal(const double (*sigma)[3], bool plane);
 void o_yield(o_scene *s);                                                                  /* yield.c */
 double o_grown_root(o_scene *s, const o_particle *i, const float *flaw, uint32_t flaws, double dt); /* damage.c */
 double o_sponge(const o_scene *s, const o_particle *i);                                    /* sponge.c: S */
+void o_quiet(const o_scene *s, o_particle *i, double rate); /* damper.c; rate: of the excess, 1/s */
+void o_book_quiet(o_scene *s, const o_particle *i, double middle, double dt);
+void o_slow(o_scene *s, double dt);
+void o_even(o_scene *s);
+bool o_drifts(const o_scene *s);               /* whether positions go with XSPH's velocity */
 void o_find_disorder(o_scene *s);              /* shifting.c */
 void o_shift(o_scene *s, double dt);
 void o_turn_round(o_particle *p, int k, double plane, bool tensors); /* steps.c: a mirror across axis k at `plane` */
@@ -205,10 +218,22 @@ void o_told(const o_set *set, double t, double *x, double *v); /* what moves as 
 void o_begin_steps(o_scene *s, uint32_t room); /* forgets rates of steps before; of at most `room` particles */
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold));
 
+/* ---- condition.c ---- */
+typedef struct o_spread { /* what comes of an error at the beginning; infinite: anything */
+    double x, v, d, dev, plastic, root, shifted, quieted, slowed, evened;
+} o_spread;
+void o_keep(o_scene *kept, const o_scene *s); /* a copy without images, in memory of its own */
+o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps, double dt,
+                       uint32_t (*flaws_of)(uint32_t id, float *threshold));
+
+/* ---- crossing.c ---- */
+void o_cross(o_scene *s); /* who is in a wall: removed, or put back */
+
 /* ---- limits.c ---- */
 typedef struct o_limits {
     double courant, viscous, force, gravity, diffusion; /* s, 0: none */
     double courant_scale;
+    bool courant_undecided; /* the largest |mu| is of a pair that rounding may take for none */
 } o_limits;
 o_limits o_find_limits(const o_scene *s);
 double o_courant_number(const sph_config *c); /* cfl, or what the integrator stands */
@@ -220,6 +245,7 @@ typedef struct o_totals {
     o_sum rise; /* d(kinetic + potential + internal + elastic)/dt, W, from the accelerations and rates */
 } o_totals;
 o_totals o_find_totals(const o_scene *s);
+double o_energy_of(const o_scene *s, const o_particle *p); /* all that a body has, J */
 bool o_loses(const o_scene *s); /* whether a form of the equations does not conserve energy pair by pair */
 double o_diffused_per_rate(const o_scene *s, const o_particle *p); /* -p/rho^2 of the pressure that acts */
 

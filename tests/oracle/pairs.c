@@ -35,11 +35,13 @@ bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p)
         if (p->r > s->support * s->cfg.max_stretch && p->q < s->support)
             s->undecided = "a bond that is too long";
     }
-    if (p->q >= s->support || !o_acts_on(s, i, j) || !o_acts_on(s, j, i))
+    p->edge = fabs(p->q - s->support) <= (SPH_DOUBLE ? 1e-9 : 1e-4) * s->support;
+    const bool beyond = p->q >= s->support; /* at the edge: a pair of which nothing is left but that it is one */
+    if ((beyond && !p->edge) || !o_acts_on(s, i, j) || !o_acts_on(s, j, i))
         return false;
-    const double slope = o_weight_slope(kernel, p->q, h);
+    const double slope = beyond ? 0 : o_weight_slope(kernel, p->q, h);
     p->g = p->q > 0 ? slope / p->q : 0;
-    p->w = o_weight(kernel, p->q, h);
+    p->w = beyond ? 0 : o_weight(kernel, p->q, h);
     p->slope = fabs(slope) + 0.05 * fabs(o_weight_slope(kernel, h, h)) + fabs(p->g) * 0.1 * h;
     if (p->bond) /* what is multiplied by x_ij has the errors of a g at |K| */
         p->slope += fabs(p->g) * p->r * (1 + 0.1 * h / o_max(p->q, 1e-3 * h));

@@ -346,6 +346,34 @@ static void draw_tables(plan *p)
     }
 }
 
+/* In whole steps some fly out of the domain, and who is in a wall is removed or put back. */
+static void draw_the_going(plan *p)
+{
+    sph_config *c = &p->cfg;
+    if (p->steps == 0)
+        return;
+    c->on_cross = 1 + pick(SPH_POLICIES - 1);
+    for (uint32_t n = chance(0.4) ? 1 + pick(3) : 0; n > 0; n--) {
+        plan_point *q = &p->point[pick(p->points)];
+        const uint32_t k = pick(SPH_DIM), side = pick(2);
+        if (c->face[k][side] != SPH_OPEN || q->set >= p->fluids)
+            continue;
+        q->x[k] = side ? c->hi[k] - range(0.001, 0.05) * c->spacing : c->lo[k] + range(0.001, 0.05) * c->spacing;
+        q->v[k] = (side ? 0.3 : -0.3) * c->sound_speed;
+    }
+}
+
+/* damper, damping by a rate, XSPH in the velocity; last, so that they change nothing before */
+static void draw_small(plan *p)
+{
+    sph_config *c = &p->cfg;
+    const bool quiets = !p->still_step && c->solid == SPH_NO_SOLID && c->integrator < SPH_RUNGE_KUTTA &&
+                        c->density == SPH_CONTINUITY && c->scheme != SPH_STANDARD_WICK && c->scheme != SPH_WEAK_WICK;
+    c->damper = quiets && chance(0.3) ? range(0.05, 1) : 0;
+    c->damping_rate = !p->still_step && chance(0.15) ? range(0.01, 2) * c->sound_speed / c->spacing : 0;
+    c->xsph_velocity = c->xsph > 0 && !c->xsph_strain && !p->still_step && chance(0.4);
+}
+
 void plan_draw(plan *p, uint64_t seed)
 {
     memset(p, 0, sizeof *p);
@@ -361,9 +389,9 @@ void plan_draw(plan *p, uint64_t seed)
     draw_sets(p);
     draw_domain(p);
     draw_points(p);
-    /* the printed forms divide by a pressure that goes through 0: rounding errors grow without bound */
+    /* the printed forms divide by a pressure that goes through 0: in many steps rounding errors grow without bound */
     if (p->cfg.scheme == SPH_STANDARD_WICK || p->cfg.scheme == SPH_WEAK_WICK)
-        p->steps = p->steps && SPH_DOUBLE ? 1 : 0;
+        p->steps = (uint32_t)o_min(p->steps, 5);
     p->wall_d = chance(0.5) ? 0 : range(0, 0.2);
     p->cfg.filter = chance(0.5) ? SPH_SHEPARD : SPH_MLS;
     p->cfg.shepard_every = p->cfg.solid == SPH_NO_SOLID && p->cfg.density == SPH_CONTINUITY && chance(0.5) ? 1 : 0;
@@ -378,6 +406,8 @@ void plan_draw(plan *p, uint64_t seed)
     for (uint32_t k = 0; k < p->solids; k++)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
     draw_tables(p);
+    draw_the_going(p);
+    draw_small(p);
 }
 
 void plan_print(const plan *p)
@@ -395,10 +425,11 @@ void plan_print(const plan *p)
         {"both sides", "front", "face"}};
     const sph_config *c = &p->cfg;
     printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, "
-           "xsph %g, shifting %g, integrator %u, steps %u\n",
+           "xsph %g%s, shifting %g, damper %g, rate %g, integrator %u, steps %u\n",
            (unsigned long long)p->seed, word[1][c->kernel], c->smoothing_length, c->spacing, c->rho0, c->sound_speed,
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
-           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
+           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph,
+           c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
     printf("  shear %u, cs %g, ci %g, filter %u\n", c->shear, c->smagorinsky, c->subgrid, c->filter);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "

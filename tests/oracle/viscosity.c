@@ -47,7 +47,8 @@ void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p
     double mu = vx / (p->r * p->r + 0.01 * h * h), scale;
     if (s->cfg.viscosity == SPH_ARTIFICIAL_APPROACHING && mu > 0)
         mu = 0;
-    i->mu = o_max(i->mu, fabs(mu));
+    double *const most = p->edge ? &i->mu_at_edge : &i->mu;
+    *most = o_max(*most, fabs(mu));
     o_gradient_vector(s, i, j, p, k, &stretch);
     if (s->cfg.viscosity == SPH_MORRIS) {
         const double c = m * 2 * s->cfg.nu / rho * p->g * p->r * p->r / (p->r * p->r + MORRIS_SOFTENING * h * h);
