@@ -97,6 +97,7 @@ tables_obj := $(BUILD)/obj/tables.o
 TOOL := $(if $(wildcard tools/main.c),$(BUILD)/sph)
 
 .PHONY: all examples demo test golden bits knobs bench size validate validate-water validate-waves validate-solids coverage lint help clean tests
+.PHONY: validate-open
 .PHONY: count house gates gates-quick mutants tool-test
 .PHONY: targets travel refuse wasm browser
 .PHONY: size-gate slices baremetal lab lab-smoke charts atlas
@@ -496,7 +497,7 @@ atlas:
 
 validate: all
 	$(Q)$(PYTHON) tests/validate.py --tool $(BUILD)/sph
-validate-water validate-waves validate-solids: validate-%: all
+validate-water validate-waves validate-solids validate-open: validate-%: all
 	$(Q)$(PYTHON) tests/validate_$*.py --tool $(BUILD)/sph
 
 # orders in space of flows and bars that have exact solutions
@@ -558,7 +559,7 @@ help:
 	'make slices     the longest slice on an emulated Cortex-M4F               -> $(BUILD)/slices.csv' \
 	'make baremetal  a tank at a fixed rate and a dam break in 192 KiB, on the same -> $(BUILD)/baremetal.csv' \
 	'make validate   the scenes against published figures                      -> $(BUILD)/validate.csv' \
-	'make validate-water, make validate-waves, make validate-solids  a part of them' \
+	'make validate-water, make validate-waves, make validate-solids, make validate-open  a part of them' \
 	'make orders            orders in space of flows and bars        -> tests/results/orders.csv' \
 	'make lab        error against cost, STUDIES="a b" or all (an hour)        -> tests/lab/*.csv' \
 	'make lab-smoke  the coarse rows of it, against the committed tables' \

@@ -63,16 +63,15 @@ def height_of_meeting(run):
 
 def jets(quick):
     vof = {0.05: (0.104, 0.151), 0.12: (0.158, 0.187), 0.17: (0.191, 0.217)}
-    n = 30 if quick else 60
-    for d2, (floor, middle) in vof.items():
-        for lift in (0, 2):
-            run = Run("caldera_wave", whole="yes", width=0.4, d2=d2, n=n, duration=0.4, every=0.004, lift=lift)
-            how = "gate gone at once" if lift == 0 else f"gate lifted at {lift} m/s"
-            yield f"G9 d2={d2} {how}: lands", f"s (vof {floor})", None, [run], lands
-            yield f"G9 d2={d2} {how}: jets meet", f"s (vof {middle})", None, [run], meets_at
-            yield f"G9 d2={d2} {how}: meeting's height", "m", None, [run], height_of_meeting
-        run = Run("caldera_wave", whole="yes", width=0.4, d2=d2, n=n, duration=0.4, every=0.004, lift=0)
-        yield f"G9 d2={d2} asymmetry", "m", None, [run], lambda r: max(abs(x) for x in r.col("asymmetry"))
+    for n, d2, lift in ((n, d2, lift) for n in ((30,) if quick else (30, 60)) for d2 in vof for lift in (0, 2)):
+        floor, middle = vof[d2]
+        run = Run("caldera_wave", whole="yes", width=0.4, d2=d2, n=n, duration=0.4, every=0.004, lift=lift)
+        how = "gate gone at once" if lift == 0 else f"gate lifted at {lift} m/s"
+        yield f"G9 d2={d2} n={n} {how}: lands", f"s (vof {floor})", None, [run], lands
+        yield f"G9 d2={d2} n={n} {how}: jets meet", f"s (vof {middle})", None, [run], meets_at
+        yield f"G9 d2={d2} n={n} {how}: meeting's height", "m", None, [run], height_of_meeting
+        yield (f"G9 d2={d2} n={n} {how}: asymmetry", "m", None, [run],
+               lambda r: max(abs(x) for x in r.col("asymmetry")))
 
 
 # ---- G10: run-up of half a tank ----
@@ -91,7 +90,7 @@ def runups(quick):
     printed = {0.05: 1.07, 0.15: 1.17, 0.25: 1.09, 0.40: 1.00}
     vof = {0.05: 1.12, 0.25: 1.18}
     for w, value in printed.items():
-        run = Run("caldera_wave", width=w, d2=0.125, n=30, every=0.01)
+        run = Run("caldera_wave", width=w, d2=0.125, n=30, every=0.01, cfl=1.2)
         gray = Run("caldera_wave", width=w, d2=0.125, n=30, every=0.01, **PRINTED)
         beside = f"R/D (Gray {value}, vof {vof[w]})" if w in vof else f"R/D (Gray {value})"
         yield f"G10 W={w} n=30 run-up", beside, None, [run], runup
