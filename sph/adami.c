@@ -170,8 +170,8 @@ static void adami_copy_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 /* rates ask for the densities of walls in some schemes only */
 static bool has_adami(const sph_sim *sim)
 {
-    return sim->has_adami &&
-           (sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD) || sph_normalises(&sim->cfg));
+    return sim->has_adami && (sph_sums_forces(sim) || !SPH_IS(sim->cfg.scheme, STANDARD) ||
+                              sph_normalises(&sim->cfg) || sph_has_energy(&sim->cfg));
 }
 const sph_pass sph_pass_adami = {"adami walls", sph_sweep_chunks, adami_chunk, NULL, has_adami};
 const sph_pass sph_pass_adami_copy = {"adami copy", sph_local_chunks, adami_copy_chunk, NULL, has_adami};

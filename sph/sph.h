@@ -138,7 +138,7 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_IDEAL_GAS, SPH_E
    mean sound of both particles, and steps go by the fastest. Energy below 0 is ENERGY_LOST. A gas stands beside
    mirror and periodic faces, walls of one row, and walls of another fluid: where the configuration's own eos is
    IDEAL_GAS there are no GHOST and ADAMI walls, whose pressure must follow from their density. Beside a fluid of
-   another density take the WEAK scheme. A density that is summed: a gas alone, and not in KICK_DRIFT_KICK, LEAP_FROG. */
+   another density take the WEAK scheme. A density that is summed: a gas alone, not in KICK_DRIFT_KICK, LEAP_FROG. */
 
 /* Forms of a solid's equations; NO_SOLID: the scene has fluids only. With T = -sigma/rho^2, K_ij the vector between two
    particles, g = (dW/dr)/r at |K|, and v_ij = v_i - v_j:

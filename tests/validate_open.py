@@ -207,7 +207,7 @@ def add_drops(add, quick):
                            diffusion="hydrostatic" if method == "delta" else "none", n=4 if quick else 8)
             options["cfl"] = 0.25 if alpha == 1 else 0.5
             run = Run("drop", alpha=alpha, **options)
-            add(f"W9 alpha {alpha} {method} detached, most", "particles", None, [run], lambda r: max(r.col("detached")))
+            add(f"W9 alpha {alpha} {method} most detached", "particles", None, [run], lambda r: max(r.col("detached")))
             add(f"W9 alpha {alpha} {method} detached at the end", "particles", None, [run],
                 lambda r: last(r, "detached"))
 
