@@ -268,8 +268,8 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
    says where they are. NATURAL: a traction that answers the velocity of the edge, on lines of particles: it cannot add
    energy, needs no memory, and reflects 3 % of waves at right angles, more the flatter they come in. VISCOUS: the same
    on the outermost particles alone (Powell 2012 eq 2.75). edge_width > 0: a matched layer of that thickness before such
-   an edge, along axes, which reflects below 1 % of P and S waves up to 60 degrees at 10 spacings. P, M, H: Powell 2012
-   eqs 2.42, 2.45, 2.33 in place of the momentum equation in edge_layers layers; as printed too; they may grow without
+   an edge, along axes, which reflects below 1 % of P waves to 30 degrees at 10 spacings, 1.4 % at 60. P, M, H: Powell
+   2012 eqs 2.42, 2.45, 2.33 in place of the momentum equation in edge_layers layers; as printed too; they may grow without
    bound. What the edges take is `absorbed` in sph_totals, with or without books; by P, M, H and matched layers to the
    first order in dt. The stress that stands when the edges are found is held, so static loads do not creep.
    SPH_ARENA_BYTES: or in SPH_USE_EDGES. */

@@ -447,7 +447,7 @@ static void what_stands_under_pressure_stays(void **state)
     }
 }
 
-#if SPH_DOUBLE
+#if SPH_DOUBLE && SPH_DIM < 3 /* what it costs */
 /* ---- the order in time ---- */
 
 static void hump(void *ctx, const double *x, double *v, double *rho)
@@ -469,6 +469,7 @@ static void edges_are_of_second_order(void **state)
             sph_config c = edge_config(kind[turn], SPH_TOTAL);
             c.edge_width = turn == 1 ? 5 * DX : 0;
             c.dt = 1.2e-3 / (1 << half);
+            c.hi[0] = 2.5;
             for (int k = 1; k < SPH_DIM; k++) {
                 c.lo[k] = 0;
                 c.hi[k] = 10 * DX;
@@ -680,7 +681,7 @@ int main(void)
         subject(p_m_and_h_are_exact_for_linear_velocities),
         subject(edges_only_take_energy),
         subject(what_stands_under_pressure_stays),
-#if SPH_DOUBLE
+#if SPH_DOUBLE && SPH_DIM < 3
         subject(edges_are_of_second_order),
 #endif
         subject(what_makes_no_edge_is_refused),
