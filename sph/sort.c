@@ -250,8 +250,10 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
         }
     uint32_t start = run, widest = 0;
     for (uint32_t c = c0; c < c1; c++) {
+        while (!SPH_SMALL && c + 64 < c1 && cell[c + 64] == start)
+            c += 64; /* starts never fall: so many empty cells */
         while (!SPH_SMALL && c + 8 < c1 && cell[c + 8] == start)
-            c += 8; /* eight empty cells */
+            c += 8;
         uint32_t end = cell[c + 1];
         widest = end - start > widest ? end - start : widest;
         order_cell(sim, start, end);
