@@ -160,7 +160,8 @@ PREFIX ?= /usr/local
 DESTDIR ?=
 INSTALL_BUILDS ?= $(BUILDS)
 INSTALL_TOOL ?= $(TOOL)
-INSTALLED_HEADERS := sph/sph.h sph/modules.h sph/knobs.h sph/name.h sph/options.h sph/sponge.h sph/shifting.h
+INSTALLED_HEADERS := sph/sph.h sph/modules.h sph/knobs.h sph/name.h sph/options.h \
+    $(shell sed -n 's/^.include "\(.*\)"/sph\/\1/p' sph/options.h)
 version := $(shell sed -n 's/^.define SPH_VERSION \([0-9]*\)u.*/\1/p' sph/sph.h)
 install: $(INSTALL_BUILDS:%=$(BUILD)/libsph%.a) $(INSTALL_TOOL)
 	$(Q)mkdir -p "$(DESTDIR)$(PREFIX)/lib/pkgconfig" "$(DESTDIR)$(PREFIX)/include/sph"
@@ -229,12 +230,15 @@ builds_test_damage  := 2f 2d 3f 3d
 builds_test_options := 1d 2f 3f
 builds_test_arena   := $(BUILDS)
 builds_test_sponge  := 1f 1d 2f 2d 3f
+builds_test_flow    := $(BUILDS)
+builds_test_plates  := 1d 2f 2d 3f
 builds_test_quadrature := 1d 2f 2d 3f
 builds_test_grid    := $(BUILDS)
 builds_test_oracle  := $(BUILDS)
 builds_test_inspect := 1f 2f 2d 3f
 builds_test_probes  := $(BUILDS)
 builds_test_shifting := $(BUILDS)
+builds_test_damper  := 1d 2f 2d 3f
 builds_test_format  := 1d 2f 3f
 builds_test_bounds  := 1d 2f 3f
 builds_test_usage   := 1d 2f 3f

@@ -22,14 +22,52 @@ static bool adami_home(const sph_sim *sim, const sph_set *s)
     return s->role == SPH_ROLE_GHOST && s->kind == SPH_WALL_ADAMI;
 }
 
-SPH_INLINE void adami_pair(const void *what, uint32_t j, vreal *s)
+#if SPH_HAS_SIDES
+/* a home of a one-sided wall: where it stands from the middle of its face, along the axes of that; half the face */
+typedef struct sided {
+    bool ratio, face;
+    vreal frame[SPH_DIM][SPH_DIM], at[SPH_DIM], half[SPH_DIM];
+} sided;
+
+static sided side_of(const sph_sim *sim, const sph_thread *t, uint32_t h, bool ratio)
 {
-    const sph_gather *g = what;
-    const sph_near_tile *f = g->tile;
-    const bool ratio = *(const bool *)g->own;
-    vreal dx[SPH_DIM];
-    sph_gather_distance(g, j, dx);
-    const vreal w = sph_gather_value(g, dx), rho = v_load(f->rho + j), a = v_load(f->press + j);
+    const sph_set *const s = &sim->set[t->home_set[h]];
+    double frame[SPH_DIM][SPH_DIM];
+    sided o = {.ratio = ratio, .face = s->side == SPH_FACE};
+    sph_frame_of(s, frame);
+    for (uint32_t l = 0; l < SPH_DIM; l++) {
+        double at = 0;
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            const double moved = (double)sim->buf[sim->dst].pos[k][t->home_at[h]] - (double)sph_wall_moved(sim, s, k);
+            at += frame[l][k] * (moved * sim->grid.quantum - s->origin[k]);
+            o.frame[l][k] = v_set((sph_real)frame[l][k]);
+        }
+        o.at[l] = v_set((sph_real)at);
+        o.half[l] = v_set((sph_real)(l ? s->half[l - 1] : 0));
+    }
+    return o;
+}
+
+/* whether candidates are acted on, x_ij being the distances to them */
+SPH_INLINE vint are_acted_on(const sided *o, const vreal *dx)
+{
+    vint acts = v_set_int(-1);
+    for (uint32_t l = 0; l < SPH_DIM; l++) {
+        vreal x = o->at[l];
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            x = x - o->frame[l][k] * dx[k];
+        if (l == 0)
+            acts &= v_less(v_set(0), x);
+        else if (o->face)
+            acts &= ~v_less(o->half[l], v_abs(x));
+    }
+    return acts;
+}
+#endif
+
+SPH_INLINE void adami_sums(const sph_near_tile *f, uint32_t j, bool ratio, const vreal *dx, vreal w, vreal *s)
+{
+    const vreal rho = v_load(f->rho + j), a = v_load(f->press + j);
     const vreal p = ratio ? a * rho * rho : a;
     s[SUM_W] = s[SUM_W] + w;
     s[SUM_PW] = s[SUM_PW] + p * w;
@@ -39,12 +77,50 @@ SPH_INLINE void adami_pair(const void *what, uint32_t j, vreal *s)
         s[SUM_UW + k] = s[SUM_UW + k] + v_load(f->v[k] + j) * w;
     }
 }
+SPH_INLINE void adami_pair(const void *what, uint32_t j, vreal *s)
+{
+    const sph_gather *g = what;
+    vreal dx[SPH_DIM];
+    sph_gather_distance(g, j, dx);
+    adami_sums(g->tile, j, *(const bool *)g->own, dx, sph_gather_value(g, dx), s);
+}
+#if SPH_HAS_SIDES
+SPH_INLINE void adami_sided_pair(const void *what, uint32_t j, vreal *s)
+{
+    const sph_gather *g = what;
+    const sided *const o = g->own;
+    vreal dx[SPH_DIM];
+    sph_gather_distance(g, j, dx);
+    adami_sums(g->tile, j, o->ratio, dx, v_where(are_acted_on(o, dx), sph_gather_value(g, dx)), s);
+}
+/* scenes with one-sided walls: home by home */
+static void adami_sided_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, bool ratio)
+{
+    for (uint32_t h = 0; h < homes; h++) {
+        sph_gather g = {t, sph_near_of(t, &t->matter), h, sim->cfg.kernel, v_set(sim->fac.inv_h), &ratio};
+        if (!sim->set[t->home_set[h]].side) {
+            sph_sum_home(sim, t, &t->matter, h, SPH_SUM_MASK(0, SUMS), adami_pair, &g);
+            continue;
+        }
+        const sided o = side_of(sim, t, h, ratio);
+        g.own = &o;
+        sph_sum_home(sim, t, &t->matter, h, SPH_SUM_MASK(0, SUMS), adami_sided_pair, &g);
+    }
+}
+#else
+static void adami_sided_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, bool ratio)
+{
+    (void)sim, (void)t, (void)homes, (void)ratio;
+}
+#endif
 static void adami_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
     static const bool standard = true;
     const bool ratio = !sph_weak_scheme(sim->cfg.scheme);
     (void)role;
-    if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && ratio)
+    if (SPH_HAS_SIDES && sim->sided)
+        adami_sided_tile(sim, t, homes, ratio);
+    else if (SPH_WITH_FAST_PATHS && SPH_IS(sim->cfg.kernel, WENDLAND_C2) && ratio)
         sph_gather_by(SPH_WENDLAND_C2, sim, t, &t->matter, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &standard);
     else
         sph_gather_tile(sim, t, &t->matter, homes, SPH_SUM_MASK(0, SUMS), adami_pair, &ratio);

@@ -17,14 +17,15 @@
 _Static_assert(sizeof 1.0 == sizeof(double), "sph must not be built with -fsingle-precision-constant");
 
 /* every object of the kernel: sph/NAME.c */
-#define SPH_OBJECTS(X)                                                                                            \
+#define SPH_OBJECTS(X)                                                                                             \
     X(adami) X(arithmetic) X(bodies) X(boundary) X(carry) X(columns) X(config) X(correction) X(crossing)           \
-    X(damage) X(density) X(digest) X(dmath) X(dump) X(eos) X(faces) X(factors) X(fields) X(finish) X(flaws) X(forces) \
-    X(format) X(gradient) X(grid) X(groups) X(hash) X(init) X(initial) X(inspect) X(integrators) X(kernels)        \
-    X(layers) X(layout) X(mirror) X(mls) X(move) X(neighbours) X(options) X(powers) X(probes) X(quadrature)        \
-    X(reading) X(records) X(reference) X(report) X(restore) X(run) X(settle) X(setup) X(shapes) X(shear)           \
-    X(shifting) X(smoothing) X(sort) X(sponge) X(state) X(stream) X(stress) X(sweep) X(threads) X(tiles)           \
-    X(timestep) X(totals) X(validate) X(yield)
+    X(damage) X(damper) X(damping) X(density) X(digest) X(dmath) X(dump) X(eos) X(evening) X(faces) X(factors)     \
+    X(fields) X(finish) X(flaws) X(flow) X(forces) X(format) X(gradient) X(grid) X(groups) X(hash) X(init)         \
+    X(initial) X(inspect) X(integrators) X(kernels) X(layers) X(layout) X(mirror) X(mls) X(motions) X(move)        \
+    X(neighbours) X(openings) X(options) X(polyline) X(powers) X(probes) X(quadrature) X(reading) X(records)       \
+    X(reference) X(report) X(restore) X(run) X(settle) X(setup) X(shapes) X(shear) X(shifting) X(smoothing)        \
+    X(sort) X(sponge) X(state) X(stream) X(stress) X(sweep) X(threads) X(tiles) X(timestep) X(totals)              \
+    X(validate) X(yield)
 
 /* what a probe computes with; volatile, so that no compiler can do it itself */
 typedef struct sph_operands {

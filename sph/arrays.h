@@ -28,7 +28,14 @@
     /* POWER_... of a particle, per unit mass */                                                                      \
     MANY(power, sph_real, SPH_POWERS, SPH_ROOM(c), sph_keeps_books(c), "powers for the books")                        \
     ONE(sponge, double, c->max_particles / SPH_LOCAL_CHUNK + 1, c->sponge_rate > 0, "absorbed energy of chunks")      \
+    ONE(flow, sph_flow_state, c->max_flows, c->max_flows > 0, "inflows and outflows")                                 \
+    ONE(taken, uint8_t, c->max_particles, c->max_flows > 0, "ids in use") /* flow.c */                                \
+    ONE(births, uint32_t, c->max_particles / SPH_LOCAL_CHUNK + 1, c->max_flows > 0, "births of chunks")               \
     MANY(disorder, sph_real, SPH_DIM + 1, SPH_ROOM(c), sph_shifts(c), "disorder") /* shifting.c */                    \
+    ONE(damper_press, sph_real, SPH_ROOM(c), sph_quiets(c), "pressure of the damper")                                 \
+    ONE(damper_loss, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_quiets(c), "energy of the damper, of chunks") \
+    ONE(slowing, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_slows(c), "energy of damping, of chunks")       \
+    ONE(evening, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_evens(c), "energy of evening, of chunks")       \
     ONE(shifted, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_shifts(c), "energy of shifting, of chunks")     \
     /* SPH_PARTIALS of each chunk */                                                                                  \
     ONE(partial, double, (size_t)SPH_PARTIALS * (c->max_particles / SPH_LOCAL_CHUNK + 1), sph_keeps_books(c),         \

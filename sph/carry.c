@@ -103,10 +103,10 @@ void sph_displace_again(const sph_sim *sim, sph_span s)
 /* the velocity beside their own that particles have gone with in this step, for sums in its middle */
 static void take_drift(const sph_sim *sim, sph_span s)
 {
-    for (uint32_t k = 0; k < SPH_DIM && sph_drift(&sim->buf[sim->dst], k) && sph_in_middle(sim); k++) {
-        take(sph_drift(&sim->buf[sim->dst], k), sph_drift(&sim->buf[sim->src], k), sph_source_index(sim),
+    for (uint32_t k = 0; k < SPH_DIM && sph_drift(sim, &sim->buf[sim->dst], k) && sph_in_middle(sim); k++) {
+        take(sph_drift(sim, &sim->buf[sim->dst], k), sph_drift(sim, &sim->buf[sim->src], k), sph_source_index(sim),
              sizeof(sph_real), s);
-        turn(sim, SPH_TURNS_VECTORS << k, sph_drift(&sim->buf[sim->dst], k), s);
+        turn(sim, SPH_TURNS_VECTORS << k, sph_drift(sim, &sim->buf[sim->dst], k), s);
     }
 }
 

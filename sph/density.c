@@ -94,7 +94,8 @@ static void copy_density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     const bool books = books_filter(sim);
     double taken = 0;
     for (uint32_t i = s.first; i < s.last; i++)
-        if (b->set[0][i] != SPH_DEAD && sph_is_matter(&sim->set[b->set[0][i]])) {
+        if (b->set[0][i] != SPH_DEAD && sph_is_matter(&sim->set[b->set[0][i]]) &&
+            !sph_flow_of(sim, &sim->set[b->set[0][i]])) {
             taken += books ? sph_energy_of(sim, b, i).internal : 0;
             b->rho[0][i] = sim->tmp[i];
             taken -= books ? sph_energy_of(sim, b, i).internal : 0;

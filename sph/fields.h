@@ -118,7 +118,4 @@ SPH_INLINE void *sph_array(const sph_buffer *b, uint32_t at)
     return p;
 }
 
-/* what positions drift with beside vel, along axis k; null where the scene has no such field */
-SPH_INLINE sph_real *sph_drift(const sph_buffer *b, uint32_t k) { return SPH_WITH_XSPH ? b->xsph[k] : NULL; }
-
 #endif

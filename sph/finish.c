@@ -57,7 +57,7 @@ static void finish_powers(sph_sim *sim, const sph_thread *t, uint32_t h,
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         if (SPH_HAS_FORCE_WALLS && sim->has_force_wall)
             in -= t->sum[SUM_BOUNDARY][h][k] * t->home.v[k][h];
-        if (sph_uses_xsph(&sim->cfg) && !(sph_held(sim, set) >> k & 1))
+        if (sph_drifts(&sim->cfg) && !(sph_held(sim, set) >> k & 1) && !sph_flow_of(sim, set))
             lost += f->gravity[k] * sim->buf[sim->dst].xsph[k][i];
     }
     if (SPH_HAS_LAYERED_WALLS)
@@ -111,6 +111,24 @@ static void apply_constraint(sph_sim *sim, const sph_set *set, uint32_t i, sph_r
     }
 }
 
+/* what a flow carries feels no force; what holds it does work against that, and against its compression */
+static void carry_along(sph_sim *sim, const sph_thread *t, uint32_t h, sph_real *acc)
+{
+    const sph_buffer *b = &sim->buf[sim->dst];
+    const uint32_t i = t->home_at[h];
+    const sph_set *set = &sim->set[t->home_set[h]];
+    const sph_real rho = t->home.rho[h], press = t->home.press[h];
+    sph_real power = (sph_weak_scheme(sim->cfg.scheme) ? press / (rho * rho) : press) * (b->drho[0][i] * set->rho0_r);
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        power += acc[k] * t->home.v[k][h];
+        acc[k] = 0;
+        if (sph_uses_xsph(&sim->cfg))
+            b->xsph[k][i] = 0;
+    }
+    if (sph_keeps_books(&sim->cfg))
+        sim->power[POWER_WALL][i] -= power;
+}
+
 /* rate of a home's relative density from its sums; solids' stress rates come with it */
 static sph_real finish_rates(const sph_sim *sim, const sph_thread *t, uint32_t h)
 {
@@ -142,6 +160,8 @@ SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
         finish_extras(sim, t, h, acc);
     if (SPH_HAS_HELD && sph_held(sim, set))
         apply_constraint(sim, set, i, acc);
+    if (sph_flow_of(sim, set))
+        carry_along(sim, t, h, acc);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
         b->acc[k][i] = acc[k];

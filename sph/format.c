@@ -40,6 +40,7 @@ static const sph_member set_fields[] = {
     {"compressible", "1", M_BOOL, 1, AT(sph_set, compressible)},
     {"no_slip", "1", M_BOOL, 1, AT(sph_set, no_slip)},
     {"corner", "1", M_BOOL, 1, AT(sph_set, corner)},
+    {"side", "1", M_U8, 1, AT(sph_set, side)},
     {"mass", "kg", M_DOUBLE, 1, AT(sph_set, mass)},
     {"rho0", "kg/m^3", M_DOUBLE, 1, AT(sph_set, rho0)},
     {"sound_speed", "m/s", M_DOUBLE, 1, AT(sph_set, c0)},
@@ -102,6 +103,7 @@ static const sph_member state_fields[] = {
     {"crossed", "1", M_U32, 1, AT(sph_scalars, crossed)},
     {"put_back", "1", M_U32, 1, AT(sph_scalars, put_back)},
     {"reflected", "1", M_U32, 1, AT(sph_scalars, reflected)},
+    {"next_id", "1", M_U32, 1, AT(sph_scalars, next_id)},
     {"primed", "1", M_BOOL, 1, AT(sph_scalars, primed)},
     {"started", "1", M_BOOL, 1, AT(sph_scalars, started)},
     {"peak_mu", "1/s", M_REAL, 1, AT(sph_scalars, peaks.mu)},
@@ -114,8 +116,8 @@ static const sph_member state_fields[] = {
 };
 #define BOOK_COUNT(name, unit, when, what) +1
 /* a member of sph_scalars that no table names would be lost: adding one must change this number and a table */
-_Static_assert(sizeof(sph_scalars) == 8 * (3 SPH_BOOKS(BOOK_COUNT) + 2 * SPH_POWERS) + 4 * 5 + 4 +
-                                          3 * sizeof(sph_real) + (SPH_DOUBLE ? 0u : 4u) +
+_Static_assert(sizeof(sph_scalars) == 8 * (3 SPH_BOOKS(BOOK_COUNT) + 2 * SPH_POWERS) + 4 * 6 + 4 +
+                                          3 * sizeof(sph_real) + (SPH_DOUBLE ? 4u : 0u) +
                                           SPH_MAX_GROUPS * sizeof(sph_group_state) ||
                    sizeof(void *) < 8,
                "sph_scalars has changed: name the new member in state_fields");

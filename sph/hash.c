@@ -31,6 +31,8 @@ uint64_t sph_hash(const sph_sim *sim)
         for (int k = 0; k < 2 * SPH_DIM && sim->has_adami && sim->group[g].motion; k++)
             h = sph_mix_double(h, s->group[g].lag[k / SPH_DIM][k % SPH_DIM]);
     }
+    if (SPH_WITH_FLOW && sim->cfg.max_flows)
+        h = sph_mix(h, s->next_id);
     /* without books all are 0, and count as they did when there were four */
     const uint32_t powers = sph_keeps_books(&sim->cfg) ? SPH_POWERS : POWER_BODY_FORCE + 1;
     for (uint32_t k = 0; k < powers; k++)

@@ -56,6 +56,8 @@ static sph_status look_at(sph_sim *sim, double t) { return SPH_HAS_GROUPS ? sph_
 /* before a step */
 sph_status sph_prepare(sph_sim *sim, const sph_integrator *g)
 {
+    if (SPH_WITH_FLOW)
+        sim->newcomers = 0;
     const sph_status st = go_to(sim, g->first->at);
     return st || !SPH_HAS_RATES_FIRST || !g->first->middle ? st : look_at(sim, sim->now.time + 0.5 * sim->dt);
 }
@@ -65,7 +67,8 @@ static sph_status begin(sph_sim *sim)
     const sph_stage *first = sim->integrator->first;
     if (first == &begins && SPH_IS(sim->cfg.integrator, LEAP_FROG))
         first = &falls_back;
-    sph_begin_sort(sim, sim->cur, spare(sim, sim->cur, sim->cur), sim->now.count, sim->table_valid, first);
+    sph_begin_sort(sim, sim->cur, spare(sim, sim->cur, sim->cur), sim->now.count + sph_newcomers(sim), sim->table_valid,
+                   first);
     return SPH_OK;
 }
 static const sph_pass pass_begin = {"begin", NULL, NULL, begin, NULL};
@@ -112,10 +115,14 @@ static void finish(sph_sim *sim, uint32_t chunk, sph_span s, sph_thread *t)
     (void)chunk;
     if (SPH_HAS_DAMAGE)
         sph_book_damage(sim, s, books);
+    if (SPH_WITH_FLOW)
+        sph_hold_flows(sim, s);
     sph_settle(sim, s);
     if (SPH_HAS_WALLS)
         sph_cross_walls(sim, s, t, books);
     sph_check(sim, s, t);
+    if (SPH_WITH_FLOW)
+        sph_let_out(sim, s, t);
     if (SPH_WITH_BOOKS)
         sph_sum_powers(sim, s, books);
     t->work += s.last - s.first;
@@ -136,7 +143,7 @@ static void carry_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 static bool carries(const sph_sim *sim)
 {
     return sph_keeps_fields(sim) || sph_has_ways(&sim->cfg, SPH_CARRIED_WAYS) ||
-           (sph_in_middle(sim) && sph_uses_xsph(&sim->cfg));
+           (sph_in_middle(sim) && sph_drifts(&sim->cfg));
 }
 static const sph_pass pass_carry = {"carry", sph_local_chunks, carry_chunk, NULL, carries};
 
@@ -157,6 +164,8 @@ static void density_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span s = sph_chunk_span(sim, chunk);
     sph_to_the_end(sim, s);
+    if (SPH_WITH_FLOW)
+        sph_hold_flows(sim, s);
     sph_retake_fields(sim, s);
     grow(sim, s, 1);
     t->work += s.last - s.first;
@@ -237,7 +246,12 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 /* a pass of a module, or null where that was left out */
 #define MODULE(knob, pass) ((knob) ? &(pass) : NULL)
 
-#define SORT &sph_pass_count, &sph_pass_scatter, &pass_carry
+#define SORT                                                                                                       \
+    &sph_pass_count, &sph_pass_scatter, &pass_carry, MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping),              \
+        MODULE(SPH_WITH_FLOW, sph_pass_flow)
+/* what a step begins with */
+#define BEGIN MODULE(SPH_WITH_FLOW, sph_pass_births), MODULE(SPH_WITH_FLOW, sph_pass_newcomers), &pass_begin
+#define QUIET MODULE(SPH_WITH_DAMPER, sph_pass_damper)
 #define DENSITIES                                                                                                  \
     MODULE(SPH_WITH_SHEPARD, sph_pass_shepard), MODULE(SPH_WITH_MLS, sph_pass_mls),                                \
         MODULE(SPH_WITH_SUMMATION, sph_pass_summation),                                                            \
@@ -255,15 +269,17 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 
 /* what a step ends with */
 #define END(pass)                                                                                                  \
-    &(pass), MODULE(SPH_WITH_SPONGE, sph_pass_sponge), MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
+    &(pass), MODULE(SPH_WITH_DAMPER, sph_pass_damper_book), MODULE(SPH_HAS_XSPH_VELOCITY, sph_pass_evening),      \
+        MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping_end), MODULE(SPH_WITH_SPONGE, sph_pass_sponge),             \
+        MODULE(SPH_WITH_SHIFTING, sph_pass_shifting)
 
 typedef const sph_pass *const list[];
 #define WEIGHTS MODULE(SPH_HAS_QUADRATURE, sph_pass_cover), MODULE(SPH_HAS_QUADRATURE, sph_pass_quadrature)
-static list first_forces = {&pass_begin, SORT, WEIGHTS, DENSITIES, FORCES, &pass_prime};
-static list predictor_corrector = {&pass_begin, SORT, DENSITIES, FORCES, END(pass_correct)};
-static list kick_drift_kick = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_kick)};
-static list leap_frog = {&pass_begin, SORT, FORCES, &pass_density, DENSITIES, FORCES, END(pass_velocity)};
-static list runge_kutta = {&pass_begin,        SORT, DENSITIES, FORCES, &pass_settle,
+static list first_forces = {&pass_begin, SORT, WEIGHTS, QUIET, DENSITIES, FORCES, &pass_prime};
+static list predictor_corrector = {BEGIN, SORT, QUIET, DENSITIES, FORCES, END(pass_correct)};
+static list kick_drift_kick = {BEGIN, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_kick)};
+static list leap_frog = {BEGIN, SORT, FORCES, &pass_density, QUIET, DENSITIES, FORCES, END(pass_velocity)};
+static list runge_kutta = {BEGIN,              SORT, DENSITIES, FORCES, &pass_settle,
                            &pass_begin_second, SORT, DENSITIES, FORCES, &pass_end_second, END(pass_advance),
                            SUM_AGAIN};
 enum { SUMMING = sizeof((const sph_pass *const[]){SUM_AGAIN}) / sizeof(const sph_pass *) };

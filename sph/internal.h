@@ -40,6 +40,8 @@ typedef struct sph_set {
     bool compressible, no_slip, corner;
     uint8_t eos;
     uint8_t kin; /* matter: the first set of the same material: role, rest density, sound speed, equation of state */
+    uint8_t side; /* walls: SPH_BOTH_SIDES ... */
+    uint8_t flow; /* 1 + the number of the inflow or outflow that it is; 0: none */
     double mass, rho0, c0;
     double strength;
     double origin[SPH_DIM];     /* middle of the wall's face at displacement 0, from the domain's low corner (m) */
@@ -49,6 +51,14 @@ typedef struct sph_set {
     sph_pos low[SPH_DIM], high[SPH_DIM]; /* box around that region, quanta, at displacement 0 */
     sph_real mass_r, rho0_r, inv_rho0_r, b_r; /* what the sweep reads; b: pressure scale of the equation of state */
 } sph_set;
+
+/* an inflow or outflow (flow.c): its box, the way through it */
+typedef struct sph_flow_state {
+    sph_pos face, end;                   /* quanta along its axis: the face to the water, the opposite one */
+    sph_pos lo[SPH_DIM], hi[SPH_DIM];    /* its box, quanta */
+    uint8_t axis, set, fluid;            /* its own set; of the water */
+    bool out, up;                        /* up: it goes along the axis, not against it */
+} sph_flow_state;
 
 /* what a set of solid has besides */
 typedef struct sph_material {
@@ -94,7 +104,7 @@ typedef struct sph_factors {
 typedef struct sph_scalars {
     double time, dt_last;
     uint64_t step;
-    uint32_t count, left, crossed, put_back, reflected;
+    uint32_t count, left, crossed, put_back, reflected, next_id; /* next_id: where free ids are looked for */
     bool primed, started; /* first forces known; first step done (leap-frog) */
     sph_peaks peaks;
     double work[SPH_POWERS]; /* J, their integrals */
@@ -137,7 +147,7 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-#define SPH_MAX_PROGRAM 48u
+#define SPH_MAX_PROGRAM (SPH_WITH_FLOW ? 56u : 48u)
 
 struct sph_sim {
     sph_config cfg;
@@ -163,7 +173,8 @@ struct sph_sim {
     uint32_t extra_reals, extra_at[SPH_COLUMN_COUNT]; /* of a thread's column sets: reals, and where each begins */
     uint32_t sets, groups, unplaced; /* particles that an addition found no room for */
     uint64_t setup_hash;
-    bool has_adami, has_force_wall;
+    uint32_t flows, newcomers; /* newcomers: behind the last particle of buffer cur, in the step under way */
+    bool has_adami, has_force_wall, sided; /* sided: there are walls that act on one side only */
     bool mixed, own_sound; /* matter is of several materials, or of one that is not the configuration's; so is its c0 */
     bool table_valid;      /* cell[] belongs to buffer cur */
     /* step machine */
@@ -266,6 +277,11 @@ SPH_INLINE bool sph_has_any_mirrors(const sph_config *c)
     return sph_has_mirrors(c, 0) || (SPH_DIM > 1 && sph_has_mirrors(c, SPH_DIM > 1)) ||
            (SPH_DIM > 2 && sph_has_mirrors(c, SPH_DIM - 1));
 }
+SPH_INLINE bool sph_quiets(const sph_config *c) { return SPH_WITH_DAMPER && c->damper > 0; }
+SPH_INLINE bool sph_slows(const sph_config *c) { return SPH_WITH_DAMPING_RATE && c->damping_rate > 0; }
+SPH_INLINE bool sph_evens(const sph_config *c) { return SPH_HAS_XSPH_VELOCITY && c->xsph_velocity; }
+/* whether positions go with the XSPH velocity, too */
+SPH_INLINE bool sph_drifts(const sph_config *c) { return sph_uses_xsph(c) && !sph_evens(c); }
 SPH_INLINE bool sph_shifts(const sph_config *c) { return SPH_WITH_SHIFTING && c->shifting > 0; }
 SPH_INLINE bool sph_filters(const sph_config *c)
 {
@@ -301,7 +317,34 @@ SPH_INLINE const sph_material *sph_material_of(const sph_sim *sim, const sph_set
 }
 /* whether a set of ghosts has a density that goes by continuity */
 SPH_INLINE bool sph_is_compressible(const sph_set *s) { return SPH_WITH_WALL_GHOST && s->compressible; }
+/* the axes of a wall's face: its normal, then directions in its plane (sph_set.half) */
+SPH_INLINE void sph_frame_of(const sph_set *s, double (*axis)[SPH_DIM])
+{
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const uint32_t a = (k + 1) % SPH_DIM, b = (k + 2) % SPH_DIM, last = SPH_DIM - 1;
+        axis[0][k] = s->normal[k];
+        if (SPH_DIM == 2)
+            axis[last][k] = k ? s->normal[0] : -s->normal[last];
+        if (SPH_DIM == 3) {
+            axis[SPH_DIM > 1][k] = s->tangent[k];
+            axis[last][k] = s->normal[a] * s->tangent[b] - s->normal[b] * s->tangent[a];
+        }
+    }
+}
+/* the inflow or outflow that a set is, or null */
+SPH_INLINE const sph_flow_state *sph_flow_of(const sph_sim *sim, const sph_set *s)
+{
+    return SPH_WITH_FLOW && s->flow ? &sim->flow[s->flow - 1] : NULL;
+}
 SPH_INLINE bool sph_is_matter(const sph_set *s) { return s->role == SPH_ROLE_FLUID || sph_is_solid(s); }
+
+/* what positions drift with beside vel, along axis k; null in scenes where they do not */
+SPH_INLINE sph_real *sph_drift(const sph_sim *sim, const sph_buffer *b, uint32_t k)
+{
+    return sph_drifts(&sim->cfg) ? b->xsph[k] : NULL;
+}
+/* whether the sort under way is a step's first, from the current state; first forces are no step */
+SPH_INLINE bool sph_begins_step(const sph_sim *sim) { return sim->src == sim->cur && sim->now.primed; }
 
 /* ---- shared by files ---- */
 
@@ -442,6 +485,8 @@ SPH_INLINE sph_real sph_turn(const sph_sim *sim, uint32_t k, uint32_t i)
     return sph_turn_of(sim, sph_source_index(sim)[i], SPH_TURNS_VECTORS << k);
 }
 
+/* particles behind the last of buffer cur that this step brings in */
+SPH_INLINE uint32_t sph_newcomers(const sph_sim *sim) { return SPH_WITH_FLOW ? sim->newcomers : 0; }
 /* whether a wall group is gone, and how fast it moves along an axis (m/s), at the moment of the stage under way */
 SPH_INLINE bool sph_wall_removed(const sph_sim *sim, const sph_set *s)
 {

@@ -144,14 +144,14 @@ SPH_INLINE_BIG void sph_mend_drift(const sph_sim *sim, sph_span s, sph_thread *t
 {
     const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const sph_real half = (sph_real)sim->dt * (sph_real)0.5;
-    if (!sph_drift(b, 0))
+    if (!sph_drift(sim, b, 0))
         return;
     for (uint32_t i = s.first; i < s.last; i++) {
         double d[SPH_DIM];
         sph_pos from[SPH_DIM];
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             const sph_real turn = sph_has_mirrors(&sim->cfg, k) ? sph_turn(sim, k, i) : 1;
-            d[k] = (double)(half * (sph_drift(b, k)[i] - turn * sph_drift(o, k)[b->id[0][i]]));
+            d[k] = (double)(half * (sph_drift(sim, b, k)[i] - turn * sph_drift(sim, o, k)[b->id[0][i]]));
             from[k] = b->pos[k][i];
         }
         if (sph_is_matter(&sim->set[b->set[0][i]]))

@@ -6,7 +6,7 @@
    spacing apart, as many as the kernel's support needs (Gray 2001 section 2.4). Where two chosen faces of a tank
    meet, the particles behind both get the diagonal normal (his figure 2.4). Boundary-force particles stand on the
    wall itself. */
-#include "setup.h"
+#include "layers.h"
 #include "arithmetic.h"
 
 SPH_OBJECT(layers)
@@ -20,7 +20,7 @@ sph_wall sph_wall_default(void)
     return w;
 }
 
-static bool layered(const sph_wall *w)
+bool sph_layers_wanted(const sph_wall *w)
 {
     return !SPH_HAS_FORCE_WALLS || SPH_IS(w->kind, WALL_GHOST) || SPH_IS(w->kind, WALL_ADAMI);
 }
@@ -35,7 +35,7 @@ static double default_strength(const sph_sim *sim, uint32_t kind)
     return SPH_IS(kind, WALL_MONAGHAN_KOS) ? 0.01 * c2 / sim->cfg.spacing : 0;
 }
 
-static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
+sph_status sph_layers_check(sph_sim *sim, const sph_wall *w, const char *call)
 {
     sph_status st = sph_setup_begin_adding(sim, call);
     if (st)
@@ -55,6 +55,9 @@ static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
         return sph_setup_bad(sim, "wall.motion", "null: moving walls were left out (modules.h)", 1);
     if (!(w->strength >= 0 && w->strength < 1e30))
         return sph_setup_bad(sim, "wall.strength", ">= 0", w->strength);
+    if (w->side >= SPH_SIDES || (w->side && (!SPH_HAS_SIDES || !sph_layers_wanted(w) || w->compressible)))
+        return sph_setup_bad(sim, "wall.side", SPH_HAS_SIDES ? "SPH_BOTH_SIDES, or of GHOST (not compressible) and ADAMI "
+                             "SPH_FRONT, SPH_FACE" : "SPH_BOTH_SIDES: others were left out (modules.h)", w->side);
     if (w->layers > 64)
         return sph_setup_bad(sim, "wall.layers", "0 .. 64", w->layers);
     if (sim->groups == SPH_MAX_GROUPS)
@@ -62,14 +65,12 @@ static sph_status check_wall(sph_sim *sim, const sph_wall *w, const char *call)
     return SPH_OK;
 }
 
-/* how many sets, particles and which digest there were before a wall, to take it back whole */
-typedef struct wall_mark {
-    uint32_t sets, count;
-    uint64_t hash;
-} wall_mark;
-static wall_mark mark_wall(const sph_sim *sim) { return (wall_mark){sim->sets, sim->now.count, sim->setup_hash}; }
+sph_layers_before sph_layers_mark(const sph_sim *sim)
+{
+    return (sph_layers_before){sim->sets, sim->now.count, sim->setup_hash};
+}
 
-static sph_status finish_wall(sph_sim *sim, const sph_wall *w, wall_mark m, sph_status st, uint32_t *group)
+sph_status sph_layers_finish(sph_sim *sim, const sph_wall *w, sph_layers_before m, sph_status st, uint32_t *group)
 {
     if (!st && sim->now.count + (SPH_WITH_DETAILS ? sim->unplaced : 0) == m.count)
         st = sph_setup_bad(sim, "wall", "at least one particle on the chosen faces", 0);
@@ -80,7 +81,8 @@ static sph_status finish_wall(sph_sim *sim, const sph_wall *w, wall_mark m, sph_
         return st;
     }
     sim->has_adami |= w->kind == SPH_WALL_ADAMI;
-    sim->has_force_wall |= !layered(w);
+    sim->sided |= w->side != SPH_BOTH_SIDES;
+    sim->has_force_wall |= !sph_layers_wanted(w);
     const uint32_t made = sph_setup_add_group(sim, w->motion, w->motion_ctx);
     if (group)
         *group = made;
@@ -88,7 +90,7 @@ static sph_status finish_wall(sph_sim *sim, const sph_wall *w, wall_mark m, sph_
 }
 
 /* a new set for one face or corner; origin, normal, tangent, half are from the caller */
-static sph_set *new_wall_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
+sph_set *sph_layers_new_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
 {
     if (sim->sets == sim->cfg.max_sets) {
         sph_error(sim, SPH_TOO_MANY_SETS, "sets", "at most max_sets", sim->sets, SPH_NO_PARTICLE);
@@ -97,11 +99,12 @@ static sph_set *new_wall_set(sph_sim *sim, const sph_wall *w, uint32_t *index)
     *index = sim->sets++;
     sph_set *s = &sim->set[*index];
     memset(s, 0, sizeof *s);
-    s->role = layered(w) ? SPH_ROLE_GHOST : SPH_ROLE_FORCE_WALL;
+    s->role = sph_layers_wanted(w) ? SPH_ROLE_GHOST : SPH_ROLE_FORCE_WALL;
     s->kind = w->kind;
     s->group = sim->groups;
     s->compressible = w->compressible && SPH_IS(w->kind, WALL_GHOST); /* others have no rate to follow */
     s->no_slip = w->no_slip;
+    s->side = (uint8_t)w->side;
     s->eos = (uint8_t)sim->cfg.eos;
     s->rho0 = sim->cfg.rho0;
     s->c0 = sim->cfg.sound_speed;
@@ -118,7 +121,7 @@ static __attribute__((noinline)) sph_pos bounded_quanta(const sph_sim *sim, int 
 }
 
 /* the box in quanta around the region behind a face */
-static void bound_region(sph_sim *sim, sph_set *s)
+void sph_layers_bound(const sph_sim *sim, sph_set *s)
 {
     for (int k = 0; k < SPH_DIM; k++) {
         double reach[3] = {s->thick * sph_abs(s->normal[k]), 0, 0};
@@ -136,7 +139,7 @@ static void bound_region(sph_sim *sim, sph_set *s)
     }
 }
 
-static uint32_t wall_layers(const sph_sim *sim, const sph_wall *w)
+uint32_t sph_layers_count(const sph_sim *sim, const sph_wall *w)
 {
     return w->layers ? w->layers : sph_setup_round_up(sim->grid.support / sim->cfg.spacing);
 }
@@ -178,7 +181,7 @@ static sph_status side_set(sph_sim *sim, box_wall *b, const int *side, uint32_t 
     *set = b->set_of[code];
     if (*set < SPH_MAX_SETS)
         return SPH_OK;
-    sph_set *s = new_wall_set(sim, b->wall, set);
+    sph_set *s = sph_layers_new_set(sim, b->wall, set);
     if (!s)
         return SPH_TOO_MANY_SETS;
     b->set_of[code] = *set;
@@ -205,7 +208,7 @@ static sph_status side_set(sph_sim *sim, box_wall *b, const int *side, uint32_t 
         }
     if (many == 3)
         s->tangent[0] = 1;
-    bound_region(sim, s);
+    sph_layers_bound(sim, s);
     sph_setup_finish_set(sim, s);
     return SPH_OK;
 }
@@ -270,7 +273,7 @@ static sph_status box_point(sph_sim *sim, box_wall *b, const int32_t *i, bool la
 sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo, const double *hi, uint32_t faces,
                             bool inside, uint32_t *group)
 {
-    sph_status st = check_wall(sim, wall, "sph_add_wall_box");
+    sph_status st = sph_layers_check(sim, wall, "sph_add_wall_box");
     if (st)
         return st;
     if (!lo || !hi)
@@ -282,11 +285,11 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
     b.wall = wall;
     b.faces = faces;
     b.inside = inside;
-    b.layers = (int32_t)wall_layers(sim, wall);
+    b.layers = (int32_t)sph_layers_count(sim, wall);
     for (int k = 0; k < 27; k++)
         b.set_of[k] = SPH_MAX_SETS;
     int32_t from[3] = {0, 0, 0}, to[3] = {1, 1, 1}, i[3] = {0, 0, 0};
-    bool layers = layered(wall);
+    bool layers = sph_layers_wanted(wall);
     for (int k = 0; k < SPH_DIM; k++) {
         if (!(hi[k] > lo[k]) || !(sph_abs(lo[k]) < 1e15) || !(sph_abs(hi[k]) < 1e15))
             return sph_setup_bad(sim, "hi", "finite and > lo on every axis", hi[k]);
@@ -301,12 +304,12 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
         from[k] = layers && inside ? -b.layers : 0;
         to[k] = a->n + (layers ? inside ? b.layers : 0 : 1);
     }
-    wall_mark m = mark_wall(sim);
+    sph_layers_before m = sph_layers_mark(sim);
     for (i[2] = from[2]; !st && i[2] < to[2]; i[2]++)
         for (i[1] = from[1]; !st && i[1] < to[1]; i[1]++)
             for (i[0] = from[0]; !st && i[0] < to[0]; i[0]++)
                 st = box_point(sim, &b, i, layers);
-    return finish_wall(sim, wall, m, st, group);
+    return sph_layers_finish(sim, wall, m, st, group);
 }
 
 #if SPH_DIM >= 2
@@ -315,13 +318,13 @@ static sph_status flat_wall(sph_sim *sim, const sph_wall *wall, const double *or
                             const double (*dir)[SPH_DIM], const double *len, uint32_t *group)
 {
     double dx = sim->cfg.spacing;
-    uint32_t n[2] = {1, 1}, layers = layered(wall) ? wall_layers(sim, wall) : 1, set;
-    double off = layered(wall) ? 0.5 : 0;
-    wall_mark m = mark_wall(sim);
-    sph_set *s = new_wall_set(sim, wall, &set);
+    uint32_t n[2] = {1, 1}, layers = sph_layers_wanted(wall) ? sph_layers_count(sim, wall) : 1, set;
+    double off = sph_layers_wanted(wall) ? 0.5 : 0;
+    sph_layers_before m = sph_layers_mark(sim);
+    sph_set *s = sph_layers_new_set(sim, wall, &set);
     if (!s)
-        return finish_wall(sim, wall, m, SPH_TOO_MANY_SETS, group);
-    s->thick = wall_layers(sim, wall) * dx;
+        return sph_layers_finish(sim, wall, m, SPH_TOO_MANY_SETS, group);
+    s->thick = sph_layers_count(sim, wall) * dx;
     for (int k = 0; k < SPH_DIM; k++) {
         s->normal[k] = normal[k];
         s->tangent[k] = SPH_DIM == 3 ? dir[0][k] : 0;
@@ -331,11 +334,12 @@ static sph_status flat_wall(sph_sim *sim, const sph_wall *wall, const double *or
     }
     for (int t = 0; t < SPH_DIM - 1; t++) {
         s->half[t] = 0.5 * len[t];
-        n[t] = sph_setup_intervals(len[t], dx) + (layered(wall) ? 0 : 1);
+        n[t] = sph_setup_intervals(len[t], dx) + (sph_layers_wanted(wall) ? 0 : 1);
         if (n[t] > 100000000u)
-            return finish_wall(sim, wall, m, sph_setup_bad(sim, "wall", "at most 10^8 spacings long", len[t]), group);
+            return sph_layers_finish(sim, wall, m,
+                                     sph_setup_bad(sim, "wall", "at most 10^8 spacings long", len[t]), group);
     }
-    bound_region(sim, s);
+    sph_layers_bound(sim, s);
     sph_setup_finish_set(sim, s);
     sph_status st = SPH_OK;
     for (uint32_t l = 0; !st && l < layers; l++)
@@ -344,20 +348,20 @@ static sph_status flat_wall(sph_sim *sim, const sph_wall *wall, const double *or
                 const uint32_t i[2] = {a, b};
                 double x[SPH_DIM];
                 for (int k = 0; k < SPH_DIM; k++) {
-                    x[k] = origin[k] - sim->cfg.lo[k] - normal[k] * (l + off) * dx * (layered(wall) ? 1 : 0);
+                    x[k] = origin[k] - sim->cfg.lo[k] - normal[k] * (l + off) * dx * (sph_layers_wanted(wall) ? 1 : 0);
                     for (int t = 0; t < SPH_DIM - 1; t++)
-                        x[k] += dir[t][k] * (i[t] + off) * (len[t] / (layered(wall) ? n[t] : n[t] - 1));
+                        x[k] += dir[t][k] * (i[t] + off) * (len[t] / (sph_layers_wanted(wall) ? n[t] : n[t] - 1));
                 }
                 st = sph_setup_append(sim, set, x, NULL, 0);
             }
-    return finish_wall(sim, wall, m, st, group);
+    return sph_layers_finish(sim, wall, m, st, group);
 }
 #endif
 
 #if SPH_DIM == 2
 sph_status sph_add_wall_segment(sph_sim *sim, const sph_wall *wall, const double *a, const double *b, uint32_t *group)
 {
-    sph_status st = check_wall(sim, wall, "sph_add_wall_segment");
+    sph_status st = sph_layers_check(sim, wall, "sph_add_wall_segment");
     if (st)
         return st;
     if (!a || !b)
@@ -379,7 +383,7 @@ sph_status sph_add_wall_segment(sph_sim *sim, const sph_wall *wall, const double
 sph_status sph_add_wall_plane(sph_sim *sim, const sph_wall *wall, const double *origin, const double *e1,
                               const double *e2, uint32_t *group)
 {
-    sph_status st = check_wall(sim, wall, "sph_add_wall_plane");
+    sph_status st = sph_layers_check(sim, wall, "sph_add_wall_plane");
     if (st)
         return st;
     if (!origin || !e1 || !e2)

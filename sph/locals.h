@@ -25,6 +25,13 @@ void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t, double *books);
 #define sph_inside_wall SPH_NAME(inside_wall_)
 uint32_t sph_inside_wall(const sph_sim *sim, const sph_buffer *b, uint32_t i, double *depth);
 
+/* flow.c: velocities and densities of inflows and outflows are those of src; until the stage settles */
+#define sph_hold_flows SPH_NAME(hold_flows_)
+void sph_hold_flows(const sph_sim *sim, sph_span s);
+/* what has gone through an outflow is removed, when the stage has settled */
+#define sph_let_out SPH_NAME(let_out_)
+void sph_let_out(const sph_sim *sim, sph_span s, sph_thread *t);
+
 /* groups.c: displaces the groups that move to where they are at time t, and removes those whose time has come, unless
    they stand there already (not `moves`) */
 #define sph_move_groups SPH_NAME(move_groups_)

@@ -54,6 +54,7 @@
     X(WALL_MONAGHAN_KOS, 1)                                                                                \
     X(WALL_GHOST, 1)                                                                                       \
     X(WALL_ADAMI, 1)                                                                                       \
+    X(ONE_SIDED, SPH_WITH_WALL_GHOST || SPH_WITH_WALL_ADAMI) /* walls that act on one side only */           \
     X(MOVING_WALLS, 1) /* walls that move or vanish */                                                     \
     X(SOLID, 1) /* solids: hypoelastic stress */                                                           \
     X(CORRECTED, SPH_WITH_SOLID) /* corrected gradients */                                                 \
@@ -65,6 +66,10 @@
     X(XSPH_STRAIN, SPH_WITH_SOLID && SPH_WITH_XSPH) /* strain rates from smoothed velocities */            \
     X(HELD, SPH_WITH_SOLID) /* sets that are held or pulled */                                             \
     X(SPONGE, 1) /* layers that take in waves */                                                           \
+    X(FLOW, 1) /* inflows and outflows */                                                                  \
+    X(DAMPER, 1) /* acoustic damper */                                                                     \
+    X(DAMPING_RATE, 1) /* damping by a rate in time */                                                     \
+    X(XSPH_VELOCITY, SPH_WITH_XSPH) /* XSPH in the velocity itself */                                      \
     X(SHIFTING, 1) /* particle shifting */                                                                 \
     X(BODY_FORCE, 1) /* a body force beside gravity */                                                     \
     X(BOOKS, 1) /* work and dissipation */                                                                 \
@@ -74,6 +79,7 @@
     X(TOTALS, 1) /* sph_get_totals */                                                                      \
     X(PROBES, 1) /* sph_probe, sph_probe_line, gauges, sph_extent */                                       \
     X(INSPECT, 1) /* sph_inspect */                                                                        \
+    X(POLYLINES, SPH_DIM == 2) /* sph_add_wall_polyline */ \
     X(SHAPES, 1) /* rings, polygons, shapes with holes */                                                  \
     X(FIELDS, 1) /* sph_apply_field, sph_apply_hydrostatic */                                              \
     X(DUMP, 1) /* sph_dump */                                                                              \
@@ -90,6 +96,7 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_HAS_LAYERED_WALLS (SPH_WITH_WALL_GHOST || SPH_WITH_WALL_ADAMI)
 #define SPH_HAS_WALLS (SPH_HAS_FORCE_WALLS || SPH_HAS_LAYERED_WALLS)
 #define SPH_HAS_MIRRORS (SPH_WITH_SYMMETRY || SPH_WITH_MIRROR_NO_SLIP)
+#define SPH_HAS_SIDES (SPH_WITH_ONE_SIDED && SPH_HAS_LAYERED_WALLS)
 #define SPH_HAS_IMAGES (SPH_WITH_PERIODIC || SPH_HAS_MIRRORS)
 #define SPH_HAS_FLUID_GRADIENT (SPH_WITH_BONET_LOK || SPH_WITH_RENORMALISED)
 #define SPH_WITH_NESTED SPH_WITH_SHEAR
@@ -99,6 +106,7 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_HAS_BOUNDED (SPH_HAS_DIFFUSION || SPH_WITH_SHIFTING) /* volumes with a bound (tiles.c) */
 /* sums that depend on whom they meet: another material, or an image of what is heavier below */
 #define SPH_HAS_APART (SPH_WITH_SEVERAL_FLUIDS || (SPH_WITH_HYDROSTATIC && SPH_HAS_MIRRORS))
+#define SPH_HAS_XSPH_VELOCITY (SPH_WITH_XSPH && SPH_WITH_XSPH_VELOCITY)
 #define SPH_HAS_FILTERS (SPH_WITH_SHEPARD || SPH_WITH_SUMMATION)
 #define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */
 #define SPH_HAS_RUNGE_KUTTA (SPH_WITH_RUNGE_KUTTA || SPH_WITH_RUNGE_KUTTA_MOMENTUM)

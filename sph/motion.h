@@ -44,8 +44,11 @@ SPH_INLINE sph_real sph_rounding(const sph_sim *sim)
 /* displacement = drift (v + drift velocity) + bend a, v' = damping (v + kick a), rho' = rho + rate drho, and +
    foresight rise in the predictor-corrector; part: see sph_rounding */
 typedef struct sph_move {
-    sph_real drift, bend, kick, rate, foresight, damping, part;
+    sph_real drift, bend, kick, rate, foresight, damping, part, slowed;
 } sph_move;
+/* what damping by a rate multiplies velocities by before all else of a step; 1 in other sorts */
+#define sph_slowed_by SPH_NAME(slowed_by_)
+sph_real sph_slowed_by(const sph_sim *sim);
 #define sph_stage_move SPH_NAME(stage_move_)
 sph_move sph_stage_move(const sph_sim *sim);
 

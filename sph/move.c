@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* move.c: where the sort takes the particles of a block, and the kick that a stage gives before the sums: matter by
    their velocity and acceleration, walls and held sets as their group is told; then the faces of the domain. */
+#include "dmath.h"
 #include "motion.h"
 #include "arithmetic.h"
 
@@ -10,11 +11,20 @@ SPH_OBJECT(move)
    long one, its rise is noise. */
 static sph_real foresight(sph_real dt, sph_real last) { return dt < 2 * last ? dt * (dt / last) : 2 * dt; }
 
+sph_real sph_slowed_by(const sph_sim *sim)
+{
+    if (!SPH_WITH_DAMPING_RATE || !(sim->cfg.damping_rate > 0) || !sph_begins_step(sim))
+        return 1;
+    return (sph_real)sph_exp(-0.5 * sim->cfg.damping_rate * sim->dt);
+}
+
 sph_move sph_stage_move(const sph_sim *sim)
 {
     const sph_stage *g = sim->stage;
     const sph_real dt = (sph_real)sim->dt, damping = g->damps ? (sph_real)sim->cfg.damping : 1;
-    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping, sph_rounding(sim)};
+    sph_move m = {g->drift * dt, dt * (g->bend * dt), g->kick * dt, g->rate * dt, 0, damping, sph_rounding(sim), 1};
+    if (SPH_WITH_DAMPING_RATE)
+        m.slowed = sph_slowed_by(sim);
     if (sph_foresees(&sim->cfg))
         m.foresight = g->rate * foresight(dt, (sph_real)sim->now.dt_last);
     if (SPH_HAS_RATES_FIRST && g->resumes) {
@@ -35,9 +45,10 @@ SPH_INLINE bool move_matter(const sph_sim *sim, const sph_move *a, uint32_t i, u
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         /* no further than a cell, and never so far that the integer overflows */
         const vreal far = v_set((sph_real)sim->grid.cell_size[k]);
-        const sph_real *beside = sph_drift(b, k);
+        const sph_real *beside = sph_drift(sim, b, k);
         for (uint32_t j = 0; j < n; j += SPH_W) {
-            const vreal v = v_load(b->vel[k] + i + j), f = v_load(b->acc[k] + i + j);
+            const vreal was = v_load(b->vel[k] + i + j), f = v_load(b->acc[k] + i + j);
+            const vreal v = SPH_WITH_DAMPING_RATE ? was * a->slowed : was;
             const vreal u = beside ? v + v_load(beside + i + j) : v;
             const vreal d = (u * a->drift + f * a->bend) * inv;
             const vint ok = v_less(v_abs(d), far);

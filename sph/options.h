@@ -20,6 +20,10 @@
 #ifndef SPH_OPTIONS_H
 #define SPH_OPTIONS_H
 
+#include "flow.h"
+#include "damper.h"
+#include "damping.h"
+#include "evening.h"
 #include "shifting.h"
 #include "sponge.h"
 /* larger magnitudes are refused: squares of them must stay finite in a float's range */
@@ -149,7 +153,11 @@
     O(A, max_stretch, REAL, 1.25, 1, 8, true, "1 .. 8", FIXED, "-",                                                   \
       "SPH_TOTAL: how far a bond may be drawn, in supports; cells grow with it")                                      \
     SPH_SHIFTING_OPTIONS(O, P, A)                                                                                     \
+    SPH_FLOW_OPTIONS(O, P, A)                                                                                         \
     SPH_SPONGE_OPTIONS(O, P, A)                                                                                       \
+    SPH_DAMPER_OPTIONS(O, P, A)                                                                                       \
+    SPH_DAMPING_OPTIONS(O, P, A)                                                                                      \
+    SPH_EVENING_OPTIONS(O, P, A)                                                                                      \
     SPH_EXTRA_OPTIONS(O, P, A)
 
 /* members of sph_config */

@@ -66,6 +66,8 @@ SPH_INLINE const sph_near_tile *sph_near_of(const sph_thread *t, const sph_tile 
 SPH_INLINE void sph_sum_home(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t h, uint32_t sums,
                              sph_pair_fn pair, const void *what)
 {
+    if (SPH_HAS_SIDES && tile == &t->ghosts && sim->sided && !sph_is_acted_on(sim, t, h))
+        return;
     if (!SPH_SIFTS) {
         sph_sum_lanes(t, h, tile->n, sums, pair, what);
         return;

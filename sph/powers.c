@@ -39,7 +39,7 @@ static double damping_loss(const sph_sim *sim, const sph_set *set, const sph_buf
     const double g2 = sim->cfg.damping * sim->cfg.damping, whole = sim->stage->damps ? g2 * g2 : g2;
     const uint32_t held = sph_held(sim, set);
     double v2 = 0;
-    for (uint32_t k = 0; k < SPH_DIM; k++)
+    for (uint32_t k = 0; k < SPH_DIM && !sph_flow_of(sim, set); k++)
         v2 += held >> k & 1 ? 0 : (double)b->vel[k][i] * (double)b->vel[k][i];
     return 0.5 * (1 / whole - 1) * v2;
 }

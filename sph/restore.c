@@ -50,6 +50,8 @@ static bool check_scalars(sph_stream *s, const sph_sim *sim, const sph_run *r)
     const sph_scalars *n = &sim->next;
     if (n->count > sim->cfg.max_particles)
         return sph_stream_refuse(s, SPH_DUMP_MISMATCH, "particles", "at most max_particles", n->count);
+    if (n->next_id > sim->cfg.max_particles)
+        return sph_stream_refuse(s, SPH_DUMP_CORRUPT, "next_id", "at most max_particles", n->next_id);
     if (!check_free(s, r))
         return false;
     if (r->limit >= SPH_LIMITS)

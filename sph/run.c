@@ -143,7 +143,7 @@ static void commit(sph_sim *sim)
 {
     const bool prime = sim->next.step == sim->now.step;
     if (sim->next.left != sim->now.left)
-        sim->next.removed_mass += fluid_mass(sim, &sim->buf[sim->cur], sim->now.count) -
+        sim->next.removed_mass += fluid_mass(sim, &sim->buf[sim->cur], sim->now.count + sph_newcomers(sim)) -
                                   fluid_mass(sim, &sim->buf[sim->dst], sim->next.count);
     sim->next.primed = true;
     sim->next.started |= !prime;

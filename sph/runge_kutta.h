@@ -50,7 +50,7 @@ SPH_INLINE void sph_runge_kutta(const sph_sim *sim, uint32_t i, sph_thread *t)
             b->vel[k][i] = (sph_real)sph_wall_velocity(sim, set, k);
             continue;
         }
-        const sph_real *beside = sph_drift(b, k);
+        const sph_real *beside = sph_drift(sim, b, k);
         const sph_real v = o->vel[k][p], half_v = v + half * o->acc[k][p];
         const sph_real a = b->acc[k][i], x = beside ? beside[i] : 0;
         const sph_real mid = v + half * a;

@@ -93,6 +93,10 @@ typedef struct sph_thread {
             sph_sifted sifted;
 #endif
             sph_points points;
+#if SPH_HAS_SIDES
+            const sph_set *wall; /* whose tile of ghosts it is, if that acts on one side only; through which image */
+            sph_image wall_seen;
+#endif
             uint32_t home_at[SPH_HOMES]; /* index of the home particle */
             uint8_t home_set[SPH_HOMES];
             /* where a pass asks for tiles of one kind: a set in `matter`, through which image, from which cell */

@@ -50,7 +50,7 @@ void sph_setup_finish_set(sph_sim *sim, sph_set *s)
         h = sph_mix_double(h, v[i]);
     for (int k = 0; k < SPH_DIM; k++)
         h = sph_mix_double(sph_mix_double(h, s->origin[k]), s->normal[k]);
-    sim->setup_hash = h;
+    sim->setup_hash = s->side ? sph_mix(h, s->side) : h;
 }
 
 uint32_t sph_setup_add_group(sph_sim *sim, sph_motion motion, void *ctx)

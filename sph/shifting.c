@@ -146,7 +146,7 @@ static void shift_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
     double d[SPH_DIM], sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = sim->buf[sim->dst].set[0][i];
-        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]))
+        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]) || sph_flow_of(sim, &sim->set[set]))
             continue;
         double taken = fill_space(sim, &sim->set[set], i, share);
         if (drift_of(sim, i, way * (4 * h), d))

@@ -18,9 +18,9 @@ SPH_OBJECT(sort)
 
 typedef struct range {
     uint32_t lo, hi;         /* slabs */
-    uint32_t from[3], to[3]; /* pieces of src to look at, in order of index */
+    uint32_t from[4], to[4]; /* pieces of src to look at, in order of index */
     uint32_t pieces;
-    uint32_t own_from, own_to;
+    uint32_t own_from, own_to, known; /* known: those before it are in the table */
 } range;
 
 static range make_range(const sph_sim *sim, uint32_t r)
@@ -29,6 +29,7 @@ static range make_range(const sph_sim *sim, uint32_t r)
     g.lo = (uint32_t)((uint64_t)sim->grid.slabs * r / sim->ranges);
     g.hi = (uint32_t)((uint64_t)sim->grid.slabs * (r + 1) / sim->ranges);
     g.pieces = 1;
+    g.known = sim->src_count;
     if (!sim->src_table) {
         g.from[0] = g.own_from = 0;
         g.to[0] = g.own_to = sim->src_count;
@@ -49,6 +50,12 @@ static range make_range(const sph_sim *sim, uint32_t r)
             g.to[0] = sim->slab[1];
             g.pieces = 2;
         }
+    }
+    g.known = sim->slab[sim->grid.slabs];
+    if (SPH_WITH_FLOW && g.known < sim->src_count) { /* newcomers may be anywhere: the last range owns them */
+        g.from[g.pieces] = g.known;
+        g.to[g.pieces++] = sim->src_count;
+        g.own_to = r + 1 == sim->ranges ? sim->src_count : g.own_to;
     }
     return g;
 }
@@ -93,7 +100,7 @@ static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, bo
     for (uint32_t p = from; p < to; p++) {
         const uint32_t c = cell[p - i];
         keep_cell(sim, p, c);
-        if (!sim->src_table || c == NO_CELL)
+        if (!sim->src_table || c == NO_CELL || (SPH_WITH_FLOW && p >= g->known))
             continue;
         while (*slab + 1 < g->hi && sim->slab[*slab + 1] <= p)
             ++*slab;

@@ -38,7 +38,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-#define SPH_VERSION 5u /* 1: without solids; 2: without sponges; 3: before `rise`, with fewer books; 4: before `lag` */
+#define SPH_VERSION 6u /* 1: no solids; 2: no sponges; 3: before `rise`, with fewer books; 4: before `lag`; 5: fewer books, no flows */
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
@@ -240,6 +240,19 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
    sph_totals, with or without books (where density is summed, of the potential energy only). Not in scenes with
    solids. SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
 
+/* Acoustic damper, `damper` its theta, 0: off: in the momentum equation and in what Adami's walls see the pressure is
+   p + theta h c0 d(rho)/dt, at least 0 with the pressure floor: a bulk viscosity theta h c0, which sound feels and flow
+   without divergence does not (damper.c). What it takes of the energy is `quieted` in sph_totals, with or without books.
+   0.2 is usual; it shortens the step (factors.c). Predictor-corrector, kick-drift-kick, leap-frog; not with solids,
+   summed density or printed continuity. SPH_ARENA_BYTES: or in SPH_USE_DAMPER.
+
+   Damping by a rate in time, `damping_rate` r (1/s): dv/dt = -r v, exact and of second order in every integrator, for
+   whatever dt, unlike `damping`, which acts by steps; takes `slowed` (damping.c). SPH_ARENA_BYTES: or in SPH_USE_BOOKS.
+
+   XSPH in the velocity itself, `xsph_velocity`: once a step v_i += xsph sum (m_j/rho_mean) (v_j - v_i) W instead of a
+   drift of the positions (Powell 2012 eq 2.71); momentum stays; takes `evened` (evening.c). SPH_ARENA_BYTES: or in
+   SPH_USE_BOOKS. */
+
 /* What to do with a particle that leaves through an open face (FAIL or REMOVE) or is found inside a wall
    (any of the four; PUT_BACK sets it 0.1 spacings off the wall, without its velocity into the wall). */
 enum { SPH_FAIL, SPH_REMOVE, SPH_PUT_BACK, SPH_IGNORE, SPH_POLICIES };
@@ -323,6 +336,8 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_SHIFTING 1024u
 #define SPH_USE_QUADRATURE 2048u /* face_quadrature */
 #define SPH_USE_SHEAR 4096u /* a viscous stress of fluids */
+#define SPH_USE_DAMPER 8192u
+#define SPH_USE_FLOW 16384u /* max_flows > 0 */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
@@ -340,6 +355,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_SHEAR) ? (SPH_DIM * SPH_DIM + 1u) * SPH_REAL_ : 0u) +                                  \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
+     (((use)&SPH_USE_DAMPER) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_FLOW) ? 2u : 0u) +                         \
      (((use)&SPH_USE_SHIFTING) ? (SPH_DIM + 1u) * SPH_REAL_ : 0u))
 #define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
 /* sums of a velocity gradient, or of shifting */
@@ -357,9 +373,9 @@ size_t sph_arena_bytes(const sph_config *cfg);
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      (((use)&SPH_USE_SHEAR) ? (size_t)(threads) * SPH_SHEAR_SCRATCH_BYTES : 0u) +                            \
-     ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
+     (((use)&SPH_USE_FLOW) ? 2048u : 0u) + ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
-         (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING)) ? 64u : 0u))
+         (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING | SPH_USE_DAMPER)) ? 64u : 0u))
 /* Declares an aligned static arena: `static SPH_ARENA(arena, 65536);` */
 #ifdef __cplusplus
 #define SPH_ARENA(name, bytes) unsigned char name alignas(SPH_ALIGN)[bytes]
@@ -429,6 +445,30 @@ typedef struct sph_table {
 } sph_table;
 #define sph_motion_table SPH_NAME(motion_table)
 void sph_motion_table(void *ctx, double t, double *displacement, double *velocity);
+
+/* A motion given by velocities, linear between rows, from rest before the first row (a jump to v[0] if that is not 0);
+   after the last it goes on with the last one. The displacement is their integral, exactly. Pass sph_motion_programme
+   and a pointer to this. Times must increase; without rows, or with an axis that there is not, there is rest. */
+typedef struct sph_programme {
+    uint32_t rows, axis;
+    const double *t, *v; /* s, m/s */
+} sph_programme;
+#define sph_motion_programme SPH_NAME(motion_programme)
+void sph_motion_programme(void *ctx, double t, double *displacement, double *velocity);
+
+/* A motion given as a table through which goes a cubic spline, so that velocity and acceleration are continuous
+   between its ends; rest before the first row and after the last, where the velocity is 0. Pass sph_motion_spline and a
+   pointer to this. sph_spline_make fills `bend` (2 rows long: accelerations at the rows, and room to find them); false:
+   fewer than two rows, times that do not increase, or what is not finite or beyond 1e15. */
+typedef struct sph_spline {
+    uint32_t rows, axis;
+    const double *t, *x; /* s, m */
+    const double *bend;  /* what sph_spline_make has found; null: rest */
+} sph_spline;
+#define sph_spline_make SPH_NAME(spline_make)
+bool sph_spline_make(const sph_spline *spline, double *bend);
+#define sph_motion_spline SPH_NAME(motion_spline)
+void sph_motion_spline(void *ctx, double t, double *displacement, double *velocity);
 
 /* A motion from rest at time 0: displacement v t + a t^2/2 on each axis. Pass sph_motion_steady and a pointer to
    this. */
@@ -537,6 +577,31 @@ typedef struct sph_shape {
 #define sph_add_shape SPH_NAME(add_shape)
 sph_status sph_add_shape(sph_sim *sim, uint32_t set, const sph_shape *shape);
 
+/* Inflows and outflows of a set of fluid, at most max_flows of them (Gray 2001 eqs 2.34, 2.35). Each is a box inside the
+   domain, of whole spacings along its axis, at least the kernel's support; `face` is the face of the box through which
+   it is joined to the water. Each is a set of its own, of the same material, that takes part in every sum but feels no
+   force: what holds it does wall_work.
+   INFLOW: the box is filled with particles that go out through the face with `speed`. Behind each that has passed it,
+   the same is born one length of the box further back, exactly, in the next step; who has passed belongs to the water.
+   Profiles: sph_apply_field and sph_apply_hydrostatic on *set, before the first step, say with what velocity along the
+   axis and what density each row comes for ever (other components: 0; against the way: nobody is born). If there is no
+   room for newcomers the step fails with TOO_MANY_PARTICLES and the number of particles needed.
+   OUTFLOW: water that comes in through the face keeps its velocity and density and is removed behind the opposite one,
+   in number `left`. Sound is reflected where the flow is slower than sound: a sponge before it helps.
+   Books: added_mass, fed; removed_mass, carried_off. Ids of newcomers: the next free one, counted round 0 ..
+   max_particles - 1. Not where density is summed. A channel needs as many particles as its lattice has with both boxes,
+   and what a step feeds: a layer at most (speed dt < dx). A step's work: (5 + 2 for each sort) max_particles more at
+   most; a slice may pass its budget by so many as a step feeds, times the threads, and by max_particles/8. */
+typedef struct sph_flow {
+    double lo[SPH_DIM], hi[SPH_DIM]; /* m */
+    uint32_t face;                   /* SPH_LOW(k) or SPH_HIGH(k), section 6 */
+    double speed;                    /* m/s, > 0; of inflows only */
+} sph_flow;
+#define sph_add_inflow SPH_NAME(add_inflow)
+sph_status sph_add_inflow(sph_sim *sim, uint32_t fluid, const sph_flow *flow, uint32_t *set);
+#define sph_add_outflow SPH_NAME(add_outflow)
+sph_status sph_add_outflow(sph_sim *sim, uint32_t fluid, const sph_flow *flow, uint32_t *set);
+
 /* Sets velocity and density of a particle between steps by a function of its position: an initial field. All or
    nothing. Velocities are those of the present time, also with the leap-frog. */
 typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho);
@@ -570,12 +635,18 @@ enum {
     SPH_WALLS
 };
 
+/* On whom a wall of layers acts. FRONT: on what is in front of its face's plane; FACE: and between the face's edges. For
+   plates between two waters: as thick as the kernel's support, with layers of one group that face each way in the same
+   place, FRONT, and at its free end FACE, so that everybody feels the plate once. Faces keep their direction. */
+enum { SPH_BOTH_SIDES, SPH_FRONT, SPH_FACE, SPH_SIDES };
+
 typedef struct sph_wall {
     uint32_t kind;       /* SPH_WALL_... */
     bool compressible;   /* GHOST: density by continuity instead of held; refused where density is summed */
     bool no_slip;        /* GHOST, ADAMI: viscosity acts between fluid and wall */
     double strength;     /* see above; 0: the usual value (sound speed, spacing and gravity of the configuration) */
     uint32_t layers;     /* GHOST, ADAMI; 0: as many as the support needs */
+    uint32_t side;       /* SPH_BOTH_SIDES ...; another than that: GHOST (not compressible), ADAMI */
     sph_motion motion;   /* null: fixed */
     void *motion_ctx;
 } sph_wall;
@@ -596,6 +667,14 @@ sph_status sph_add_wall_box(sph_sim *sim, const sph_wall *wall, const double *lo
 /* A straight wall from a to b; the fluid is on its left. */
 #define sph_add_wall_segment SPH_NAME(add_wall_segment)
 sph_status sph_add_wall_segment(sph_sim *sim, const sph_wall *wall, const double *a, const double *b, uint32_t *group);
+/* A bed: straight walls through n points (m), one group; the fluid is on the left of the way along them. Layers run on
+   round the corners, mitred there, with a particle on each mitre: none is doubled and none is left out, and a corner of
+   a box has the particles of sph_add_wall_box. Uses 2 n - 3 sets. Refused: fewer than two points, turns of more than a
+   right angle, and pieces so short that a layer would fold at their corners or an end be shorter than a spacing (each
+   layer wants half a spacing and more between two corners). */
+#define sph_add_wall_polyline SPH_NAME(add_wall_polyline)
+sph_status sph_add_wall_polyline(sph_sim *sim, const sph_wall *wall, const double (*points)[SPH_DIM], uint32_t n,
+                                 uint32_t *group);
 #endif
 #if SPH_DIM == 3
 /* A flat wall: the parallelogram origin + s e1 + t e2; the fluid is on the side of e1 x e2. */
@@ -696,14 +775,19 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
 
 /* ---- 9 books, probes, gauges, inspection -----------------------------------------------------------------------*/
 /* Books of what happens at once, a line each: X(name, unit, scenes whose digest has it, what). Members of sph_totals,
-   the state, its digest and dumps follow from the list. `c`: the configuration. The first three are kept in every
+   the state, its digest and dumps follow from the list. `c`: the configuration. The first six are kept in every
    scene, the others where the scene asks for books. */
 #define SPH_BOOKS(X)                                                                                                  \
     X(absorbed, "J", SPH_WITH_SPONGE && c->sponge_rate > 0, "kinetic energy that sponge layers took")                 \
     X(shifted, "J", SPH_WITH_SHIFTING && c->shifting > 0, "energy that shifting took; < 0: gave")                     \
+    X(quieted, "J", SPH_WITH_DAMPER && c->damper > 0, "energy that the acoustic damper took")                         \
+    X(slowed, "J", SPH_WITH_DAMPING_RATE && c->damping_rate > 0, "kinetic energy that damping_rate took")                                                    \
+    X(evened, "J", SPH_HAS_XSPH_VELOCITY && c->xsph_velocity, "kinetic energy that xsph_velocity took")               \
     X(removed_mass, "kg", false, "left the domain or was removed")                                                    \
     X(carried_off, "J", SPH_WITH_BOOKS && c->books, "energy that it had")                                             \
     X(released, "J", SPH_WITH_BOOKS && c->books, "elastic energy and that of tension that damage let go")             \
+    X(added_mass, "kg", SPH_WITH_FLOW && c->max_flows > 0, "came in through inflows")                                 \
+    X(fed, "J", SPH_WITH_FLOW && c->max_flows > 0, "energy that it brought")                                          \
     X(put_back_loss, "J", SPH_WITH_BOOKS && c->books, "lost by particles that were put back off a wall; < 0: gained") \
     X(filtered, "J", SPH_WITH_BOOKS && c->books, "taken from the internal energy by the Shepard filter")              \
     X(damped, "J", SPH_WITH_BOOKS && c->books, "kinetic energy that damping took, to first order in dt")
@@ -712,8 +796,8 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out);
      d(kinetic + potential + internal + elastic)/dt = power of walls and body force - powers of all that takes,
    to rounding; the powers are integrated over time by the trapezoidal rule, and
      balance = kinetic + potential + internal + elastic + plastic_work - wall_work - body_work + dissipated + diffused
-             + in_walls + in_bonds + unbalanced + absorbed + shifted + carried_off + released + put_back_loss
-             + filtered + damped
+             + in_walls + in_bonds + unbalanced + absorbed + shifted + quieted + slowed + evened + carried_off
+             + released + put_back_loss + filtered + damped - fed
    stays (plastic_work to first order in dt; gravity changed by sph_reconfigure shifts the potential). Without books it
    is what can be summed without them. `unbalanced` is 0 but for DIRECT, the printed continuity forms, WEAK schemes with
    summed density, MIRROR_NO_SLIP, xsph_strain, the drift of XSPH in gravity, and solids, whose Jaumann rate stores

@@ -100,7 +100,7 @@ static void sponge_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
         l[k] = layers_of(sim, k);
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]))
+        if (set == SPH_DEAD || !sph_is_matter(&sim->set[set]) || sph_flow_of(sim, &sim->set[set]))
             continue;
         const double s = sponge_at(l, b, i);
         if (s > 0)

@@ -115,6 +115,47 @@ static bool joins(filling *f, const sph_set *set, const sph_image *im)
     return same;
 }
 
+#if SPH_HAS_SIDES
+/* whether candidates of a set of walls, seen through an image, may join those in the tile of ghosts; if the tile is
+   empty, what they are is noted */
+static bool joins_wall(filling *f, const sph_set *set, const sph_image *im)
+{
+    sph_thread *const t = f->t;
+    const sph_set *const own = set->side ? set : NULL;
+    if (t->ghosts.n == 0) {
+        t->wall = own;
+        t->wall_seen = *im;
+    }
+    bool same = t->wall == own;
+    for (uint32_t k = 0; k < SPH_DIM && own; k++)
+        same &= t->wall_seen.sign[k] == im->sign[k] && t->wall_seen.shift[k] == im->shift[k];
+    return same;
+}
+
+bool sph_is_acted_on(const sph_sim *sim, const sph_thread *t, uint32_t h)
+{
+    const sph_set *const s = t->wall;
+    const double q = sim->grid.quantum;
+    double d[SPH_DIM], frame[SPH_DIM][SPH_DIM], x[SPH_DIM] = {0};
+    if (!s)
+        return true;
+    sph_frame_of(s, frame);
+    for (uint32_t k = 0; k < SPH_DIM; k++) { /* from the face, as the image shows it, turned back */
+        const double seen = ((double)sim->buf[sim->dst].pos[k][t->home_at[h]] - (double)t->wall_seen.shift[k]) * q;
+        d[k] = (double)t->wall_seen.sign[k] * seen - s->origin[k] - (double)sph_wall_moved(sim, s, k) * q;
+    }
+    for (uint32_t l = 0; l < SPH_DIM; l++)
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            x[l] += frame[l][k] * d[k];
+    bool acts = x[0] > 0;
+    for (uint32_t l = 1; l < SPH_DIM && s->side == SPH_FACE; l++)
+        acts &= x[l] >= -s->half[l - 1] && x[l] <= s->half[l - 1];
+    return acts;
+}
+#else
+#define joins_wall(f, set, im) ((void)(f), (void)(set), (void)(im), true)
+#endif
+
 /* candidates s..e of one set into their tile */
 static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_t s, uint32_t e)
 {
@@ -126,6 +167,10 @@ static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_
         if (SPH_HAS_APART && f->w->apart && role == SPH_ROLE_FLUID && !joins(f, set, im)) {
             flush(f, role);
             (void)joins(f, set, im);
+        }
+        if (SPH_HAS_SIDES && f->sim->sided && role == SPH_ROLE_GHOST && !joins_wall(f, set, im)) {
+            flush(f, role);
+            (void)joins_wall(f, set, im);
         }
         const uint32_t take = e - s < SPH_TILE - *n ? e - s : SPH_TILE - *n;
         const sph_tile *const tile = role == SPH_ROLE_GHOST ? &f->t->ghosts : &f->t->matter;

@@ -138,6 +138,10 @@ uint32_t sph_find_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *
 #define sph_take_neighbours SPH_NAME(take_neighbours_)
 uint32_t sph_take_neighbours(const sph_sim *sim, sph_thread *t, const sph_tile *tile, uint32_t from, uint32_t found);
 
+/* whether home h feels the walls in the tile of ghosts: it may stand on the other side of one-sided ones */
+#define sph_is_acted_on SPH_NAME(is_acted_on_)
+bool sph_is_acted_on(const sph_sim *sim, const sph_thread *t, uint32_t h);
+
 /* tiles.c: the columns of every tile, for a run; `homes`: into the tile of homes */
 #define sph_load_tile SPH_NAME(load_tile_)
 enum { SPH_BOUNDED = 2 };

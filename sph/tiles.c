@@ -21,6 +21,7 @@ typedef struct tile_choice {
     bool ratio, floor, inv_rho; /* p/rho^2 instead of p; p >= 0; whether 1/rho is asked for */
     bool press, middle;         /* whether pressures are; whether it is the middle of a step */
     bool wall, is_image;        /* velocities of a wall's group; seen through an image */
+    bool damped;                /* the damper's pressure */
     bool drifts;                /* positions go with a velocity beside the own, too */
 } tile_choice;
 
@@ -65,12 +66,15 @@ SPH_INLINE void load_columns(const sph_candidates *r, sph_tile *t, sph_real leas
                 const vint q = v_load_int(pos[k] + j);
                 const vreal v = c.wall ? group[k] : v_load(vel[k] + j);
                 const vreal x = v_from_int(c.is_image ? q * sign[k] + shift[k] : q - shift[k]) * quantum;
-                const vreal way = c.drifts ? v + v_load(sph_drift(r->b, k) + s + j) : v;
+                const vreal way = c.drifts ? v + v_load(sph_drift(sim, r->b, k) + s + j) : v;
                 v_store(t->x[k] + at + j, c.middle ? x - back[k] * way : x);
                 v_store(t->v[k] + at + j, c.is_image ? v * flip[k] : v);
             }
             const vreal e = v_load(excess + j);
-            const vreal rho = (1 + e) * r0, p = c.press ? sph_pressure_of(c.eos, c.floor, b, e) : v_set(0);
+            const vreal rho = (1 + e) * r0;
+            vreal p = c.press ? sph_pressure_of(c.eos, c.floor, b, e) : v_set(0);
+            if (SPH_WITH_DAMPER && c.damped)
+                p = p + v_load(sim->damper_press + s + j);
             v_store(t->m + at + j, m);
             v_store(t->rho + at + j, rho);
             v_store(t->press + at + j, c.ratio && c.press ? p / (rho * rho) : p);
@@ -85,7 +89,13 @@ static bool needs_press(const sph_sim *sim) { return sph_sums_forces(sim) || !SP
 /* whether what is seen half a step back went with XSPH's velocity too (motion.h) */
 SPH_INLINE bool drifts_beside(const sph_candidates *r, bool wall)
 {
-    return sph_in_middle(r->sim) && !wall && sph_drift(r->b, 0) != NULL;
+    return sph_in_middle(r->sim) && !wall && sph_drift(r->sim, r->b, 0) != NULL;
+}
+
+/* bodies have the damper's pressure in sums of forces */
+SPH_INLINE bool damped_here(const sph_candidates *r, bool wall)
+{
+    return sph_quiets(&r->sim->cfg) && sph_sums_forces(r->sim) && !wall;
 }
 
 SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bool inv_rho)
@@ -100,6 +110,7 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
                              sph_in_middle(r->sim),
                              SPH_HAS_LAYERED_WALLS && wall,
                              SPH_HAS_IMAGES && r->im->is_image,
+                             damped_here(r, wall),
                              drifts_beside(r, wall)};
     load_columns(r, t, least, COPIED, own);
 }
@@ -127,7 +138,7 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
 #define SPH_FAST_FN(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                           \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t, sph_real least)                               \
     {                                                                                                              \
-        const tile_choice own = {SPH_##eos_, true, floor_, inv_rho_, press_, !(press_), wall_, false, false};      \
+        const tile_choice own = {SPH_##eos_, true, floor_, inv_rho_, press_, !(press_), wall_, false, false, false};      \
         load_columns(r, t, least, copied, own);                                                                    \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
@@ -147,7 +158,7 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool ho
     /* of rates the equation of state does not matter */
     const uint32_t eos = press ? r->set->eos : SPH_TAIT;
     const bool usual = SPH_WITH_FAST_PATHS && (SPH_IS(c->scheme, STANDARD) || !press) && !r->im->is_image &&
-                       !drifts_beside(r, wall);
+                       !drifts_beside(r, wall) && !damped_here(r, wall);
     (void)copied;
 #define SPH_FAST_TRY(name, eos_, floor_, inv_rho_, press_, wall_, copied_)                                         \
     if (usual && eos == SPH_##eos_ && floor == (floor_) && inv_rho == (inv_rho_) && press == (press_) &&           \

@@ -56,7 +56,7 @@ void sph_get_totals(const sph_sim *sim, sph_totals *out)
     SPH_BOOKS(BOOK_TOTAL)
     out->balance = out->kinetic + out->potential + out->internal + out->elastic + out->plastic_work - out->wall_work -
         out->body_work + out->dissipated + out->diffused + out->in_walls + out->in_bonds + out->unbalanced +
-        out->absorbed + out->shifted + out->carried_off + out->released + out->put_back_loss + out->filtered +
-        out->damped;
+        out->absorbed + out->shifted + out->quieted + out->slowed + out->evened + out->carried_off + out->released +
+        out->put_back_loss + out->filtered + out->damped - out->fed;
 }
 #endif

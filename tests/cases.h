@@ -9,6 +9,7 @@
 #include "sph/sph.h"
 
 enum { CASE_NO_WALL = SPH_WALLS };
+enum { CASE_SWINGS, CASE_PROGRAMME, CASE_SPLINE };
 enum { SPONGE_NONE, SPONGE_LOW, SPONGE_HIGH, SPONGE_ALL }; /* layers at low faces, at high ones, at all */
 
 /* 0 means the default of sph_config_default throughout */
@@ -23,6 +24,10 @@ typedef struct bits_case {
     bool shifting;
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
+    bool flow;                            /* water comes in and goes out along the first axis */
+    bool quiet, slowed, evened;           /* acoustic damper; damping by a rate; XSPH in the velocity */
+    bool bed;                             /* walls by a polyline: a box in 1-D and 3-D */
+    uint32_t motion;                      /* of a wall that moves: CASE_... */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -148,6 +153,36 @@ static const bits_case bits_cases[] = {
     {"large_eddies_no_slip", CASE_BASE, .shear = SPH_SMAGORINSKY_WICK, .face = SPH_MIRROR_NO_SLIP, .books = true},
     {"large_eddies_periodic", CASE_BASE, .shear = SPH_SMAGORINSKY, .face = SPH_PERIODIC,
      .integrator = SPH_LEAP_FROG},
+    /* inflows and outflows */
+    {"flow", CASE_BASE, .flow = true, .books = true},
+    {"flow_kick_drift_kick", CASE_BASE, .flow = true, .integrator = SPH_KICK_DRIFT_KICK, .diffusion = SPH_MOLTENI,
+     .shifting = true, .books = true},
+    {"flow_runge_kutta", CASE_BASE, .flow = true, .integrator = SPH_RUNGE_KUTTA, .xsph = true, .shepard = true,
+     .damped = true},
+    /* damper, damping by a rate, XSPH in the velocity */
+    {"damper", CASE_BASE, .quiet = true, .books = true},
+    {"damper_kick_drift_kick", CASE_BASE, .quiet = true, .integrator = SPH_KICK_DRIFT_KICK,
+     .diffusion = SPH_HYDROSTATIC, .floor = true, .books = true, .shifting = true},
+    {"damper_symmetry", CASE_BASE, .quiet = true, .face = SPH_SYMMETRY, .integrator = SPH_LEAP_FROG,
+     .gradient = SPH_BONET_LOK},
+    {"damper_weak", .kernel = SPH_QUINTIC, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .quiet = true,
+     .scheme = SPH_WEAK, .compressible = true, .slip_less = true, .books = true},
+    {"damping_rate", CASE_BASE, .slowed = true},
+    {"damping_rate_runge_kutta", CASE_BASE, .slowed = true, .integrator = SPH_RUNGE_KUTTA, .xsph = true,
+     .face = SPH_SYMMETRY},
+    {"damping_rate_solid", CASE_SOLID, .solid = SPH_UPDATED, .slowed = true, .held = true,
+     .integrator = SPH_KICK_DRIFT_KICK, .books = true},
+    {"damping_rate_leap_frog", CASE_BASE, .slowed = true, .integrator = SPH_LEAP_FROG, .moving = true},
+    {"xsph_velocity", CASE_BASE, .xsph = true, .evened = true, .books = true},
+    {"xsph_velocity_solid", CASE_SOLID, .solid = SPH_CORRECTED, .xsph = true, .evened = true, .held = true,
+     .integrator = SPH_KICK_DRIFT_KICK},
+    /* polylines, motions by programme and by spline */
+    {"polyline", CASE_BASE, .bed = true, .books = true},
+    {"polyline_ghost", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .bed = true,
+     .compressible = true, .slip_less = true, .moving = true, .motion = CASE_PROGRAMME, .books = true},
+    {"polyline_force", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_KERNEL_FORCE,
+     .bed = true, .integrator = SPH_KICK_DRIFT_KICK},
+    {"moving_by_spline", CASE_BASE, .moving = true, .motion = CASE_SPLINE, .integrator = SPH_KICK_DRIFT_KICK},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -162,6 +197,31 @@ static __attribute__((unused)) void case_motion(void *ctx, double t, double *x, 
     (void)ctx;
     x[0] = 0.02 * CASE_DX * sph_sin(80 * t);
     v[0] = 0.02 * CASE_DX * 80 * sph_cos(80 * t);
+}
+
+static __attribute__((unused)) void case_programme(void *ctx, double t, double *x, double *v)
+{
+    static const double times[] = {0, 2e-3, 5e-3, 8e-3}, speeds[] = {0, 0.5, 0.5, -0.25};
+    sph_programme m = {4, 0, times, speeds};
+    (void)ctx;
+#if SPH_WITH_MOVING_WALLS
+    sph_motion_programme(&m, t, x, v);
+#else
+    (void)m, (void)t, (void)x, (void)v;
+#endif
+}
+static __attribute__((unused)) void case_spline(void *ctx, double t, double *x, double *v)
+{
+    static const double times[] = {0, 3e-3, 5e-3, 0.01, 0.02}, places[] = {0, 1e-3, 2e-3, 1e-3, 4e-3};
+    double bend[10];
+    sph_spline m = {5, 0, times, places, bend};
+    (void)ctx;
+#if SPH_WITH_MOVING_WALLS
+    sph_spline_make(&m, bend);
+    sph_motion_spline(&m, t, x, v);
+#else
+    (void)m, (void)t, (void)x, (void)v;
+#endif
 }
 
 static __attribute__((unused)) void case_body(void *ctx, double t, const double *x, const double *v, double *a)
@@ -234,6 +294,10 @@ static sph_config case_config(const bits_case *b)
     }
     case_sponge(&c, b->sponge);
     c.shifting = b->shifting ? 0.5 : 0;
+    c.max_flows = b->flow ? 2 : 0;
+    c.damper = b->quiet ? 0.2 : 0;
+    c.damping_rate = b->slowed ? 30 : 0;
+    c.xsph_velocity = b->evened;
     c.max_particles = SPH_DIM == 1 ? 420 : SPH_DIM == 2 ? 2400 : 3500;
     return c;
 }
@@ -263,6 +327,39 @@ static sph_status case_water(sph_sim *sim, uint32_t set, uint32_t other, uint32_
     return SPH_OK;
 }
 
+/* an inflow in front of the water, through the low wall, and an outflow in its last spacings */
+static sph_status case_flow(sph_sim *sim, uint32_t water)
+{
+#if SPH_WITH_FLOW
+    sph_flow f = {.face = SPH_HIGH(0), .speed = 8};
+    uint32_t set;
+    for (int k = 0; k < SPH_DIM; k++)
+        f.hi[k] = CASE_N * CASE_DX;
+    f.lo[0] = -4 * CASE_DX;
+    f.hi[0] = 0;
+    sph_status st = sph_add_inflow(sim, water, &f, &set);
+    f.face = SPH_LOW(0);
+    f.hi[0] = CASE_N * CASE_DX;
+    f.lo[0] = f.hi[0] - 3 * CASE_DX;
+    return st ? st : sph_add_outflow(sim, water, &f, &set);
+#else
+    (void)sim, (void)water;
+    return SPH_BAD_ARGUMENT;
+#endif
+}
+
+/* a tank whose bed is lowest in its middle */
+static __attribute__((unused)) sph_status case_bed(sph_sim *sim, const sph_wall *w)
+{
+#if SPH_WITH_POLYLINES && SPH_HAS_WALLS && SPH_DIM == 2
+    const double e = CASE_N * CASE_DX, points[5][2] = {{0, e}, {0, 0}, {0.5 * e, -2.5 * CASE_DX}, {e, 0}, {e, e}};
+    return sph_add_wall_polyline(sim, w, points, 5, NULL);
+#else
+    (void)sim, (void)w;
+    return SPH_BAD_ARGUMENT;
+#endif
+}
+
 static sph_status case_walls(sph_sim *sim, const bits_case *b)
 {
 #if SPH_HAS_WALLS
@@ -274,16 +371,16 @@ static sph_status case_walls(sph_sim *sim, const bits_case *b)
     w.compressible = b->compressible;
     w.strength = b->wall == SPH_WALL_LENNARD_JONES ? 0.02 : 0;
     if (b->moving)
-        w.motion = case_motion;
+        w.motion = b->motion == CASE_SPLINE ? case_spline : b->motion == CASE_PROGRAMME ? case_programme : case_motion;
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         lo[k] = 0;
         hi[k] = CASE_N * CASE_DX;
-        if (k > 0 || b->face == SPH_OPEN)
+        if ((k > 0 || b->face == SPH_OPEN) && (k > 0 || !b->flow))
             faces |= SPH_LOW(k) | (k + 1 < SPH_DIM || SPH_DIM == 1 ? SPH_HIGH(k) : 0);
     }
     if (!faces)
         return SPH_OK;
-    sph_status st = sph_add_wall_box(sim, &w, lo, hi, faces, true, &group);
+    sph_status st = b->bed && SPH_DIM == 2 ? case_bed(sim, &w) : sph_add_wall_box(sim, &w, lo, hi, faces, true, &group);
 #if SPH_WITH_MOVING_WALLS
     return st || !b->gate ? st : sph_remove_wall_at(sim, group, 3e-3);
 #else
@@ -337,6 +434,8 @@ static sph_status case_build(sph_sim *sim, const bits_case *b)
     if (!st && SPH_DIM > 1 && b->damage)
         st = sph_add_flaws(sim, set, &flaws);
 #endif
+    if (!st && b->flow)
+        st = case_flow(sim, set);
     if (!st && b->wall != CASE_NO_WALL)
         st = case_walls(sim, b);
     return st;

@@ -57,7 +57,8 @@ static sph_status cost(const scene *s)
     uint64_t ns = 0;
     if (s->params > MOST_PARAMS)
         return SPH_BAD_ARGUMENT;
-    if (strcmp(s->name, "solitary") == 0) /* its wave is found in double, on a host's stack */
+    if (strcmp(s->name, "solitary") == 0 || strcmp(s->name, "collision") == 0 || strcmp(s->name, "shoaling") == 0 ||
+        strcmp(s->name, "breaking") == 0) /* waves are found in double, on a host's stack */
         return SPH_OK;
     for (uint32_t k = 0; k < s->params; k++) {
         p[k] = s->param[k].value;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* random_scene.h: small scenes that a number draws: every choice of the configuration, every kind of wall, fluids and
-   solids, faces of every kind, motions, gates, flaws, sponges, shifting. Two calls with one number make the same
+   solids, faces of every kind, motions, gates, flaws, sponges, shifting, inflows and outflows. Two calls with one number make the same
    scene. */
 #ifndef SPH_RANDOM_SCENE_H
 #define SPH_RANDOM_SCENE_H
@@ -110,7 +110,14 @@ static UNUSED sph_config random_config(uint32_t number)
     else
         scene_fluids(&c);
     scene_box(&c);
+    if (c.solid == SPH_NO_SOLID && c.integrator < SPH_RUNGE_KUTTA && c.density == SPH_CONTINUITY &&
+        c.scheme <= SPH_DIRECT)
+        c.damper = number % 3 ? 0 : 0.2;
+    c.damping_rate = number % 5 == 1 ? 20 : 0;
+    c.xsph_velocity = c.xsph > 0 && !c.xsph_strain && number % 4 == 2;
     c.face_quadrature = SPH_DIM > 1 && c.solid >= SPH_CORRECTED && number % 2;
+    if (number % 3 == 1 && c.density == SPH_CONTINUITY && c.face[0][0] == SPH_OPEN)
+        c.max_flows = 2;
     c.max_particles = SPH_DIM == 1 ? 200 : SPH_DIM == 2 ? 900 : 3500;
     return c;
 }
@@ -170,6 +177,22 @@ static UNUSED void scene_walls(sph_sim *sim, const sph_config *c)
         must(sim, sph_remove_wall_at(sim, group, scene_toss(0, 4e-3)));
 }
 
+/* water comes in before the low face of the first axis and goes out before the high one */
+static UNUSED void scene_flows(sph_sim *sim, uint32_t water)
+{
+    sph_flow f = {.face = SPH_HIGH(0), .speed = scene_toss(0.5, 6)};
+    uint32_t set;
+    for (int k = 0; k < SPH_DIM; k++)
+        f.hi[k] = RANDOM_CELLS * RANDOM_DX;
+    f.lo[0] = -5 * RANDOM_DX;
+    f.hi[0] = 0;
+    must(sim, sph_add_inflow(sim, water, &f, &set));
+    f.face = SPH_LOW(0);
+    f.hi[0] = RANDOM_CELLS * RANDOM_DX;
+    f.lo[0] = f.hi[0] - 5 * RANDOM_DX;
+    must(sim, sph_add_outflow(sim, water, &f, &set));
+}
+
 /* sets, particles, walls of the scene of a configuration that was made by random_config just before */
 static UNUSED void random_build(sph_sim *sim, const sph_config *c)
 {
@@ -186,6 +209,8 @@ static UNUSED void random_build(sph_sim *sim, const sph_config *c)
         must(sim, sph_add_fluid(sim, NULL, &high));
     scene_fill(sim, low, 0, half);
     scene_fill(sim, high, half, RANDOM_CELLS - scene_draw(3));
+    if (c->max_flows && !c->solid)
+        scene_flows(sim, low);
 #if SPH_DIM > 1
     const sph_flaws flaws = {1e12, 8.5, 11};
     if (c->damage)

@@ -642,6 +642,66 @@ static void row_motion_steady(void)
     EACH_NUMBER(now)
         sph_motion_steady(&m, now, d, v); /* what is not finite fails the step: test_faults.c */
 }
+static void row_motion_programme(void)
+{
+    const double t[] = {0, 1}, u[] = {0, 2};
+    const sph_programme bad[] = {{0, 0, t, u}, {2, SPH_DIM, t, u}, {2, 0xffffffffu, t, u}, {2, 0, NULL, u},
+                                 {2, 0, t, NULL}};
+    double d[SPH_DIM], v[SPH_DIM];
+    for (uint32_t k = 0; k <= 5; k++) {
+        for (int a = 0; a < SPH_DIM; a++)
+            d[a] = v[a] = 7;
+        sph_motion_programme(k < 5 ? (void *)(uintptr_t)&bad[k] : NULL, 0.5, d, v);
+        for (int a = 0; a < SPH_DIM; a++)
+            assert_true(d[a] == 0 && v[a] == 0);
+    }
+    EACH_NUMBER(now) {
+        sph_programme m = {2, 0, t, u};
+        sph_motion_programme(&m, now, d, v); /* what is not finite fails the step: test_faults.c */
+        if (finite(now))
+            assert_true(v[0] >= 0 && v[0] <= 2);
+    }
+}
+static void row_spline_make(void)
+{
+    const double t[] = {0, 1, 3}, x[] = {0, 2, 1};
+    double bend[6], bad_t[3] = {0, 1, 3};
+    sph_spline m = {3, 0, t, x, bend};
+    assert_true(sph_spline_make(&m, bend));
+    assert_false(sph_spline_make(NULL, bend));
+    assert_false(sph_spline_make(&m, NULL));
+    m.rows = 1;
+    assert_false(sph_spline_make(&m, bend));
+    m = (sph_spline){3, 0, NULL, x, bend};
+    assert_false(sph_spline_make(&m, bend));
+    m = (sph_spline){3, 0, t, NULL, bend};
+    assert_false(sph_spline_make(&m, bend));
+    m = (sph_spline){3, 0, bad_t, x, bend};
+    EACH_NUMBER(now) {
+        bad_t[1] = now;
+        assert_true(sph_spline_make(&m, bend) == (now > 0 && now < 3));
+    }
+}
+static void row_motion_spline(void)
+{
+    const double t[] = {0, 1}, x[] = {0, 2}, bend[] = {12, -12};
+    const sph_spline bad[] = {{0, 0, t, x, bend}, {1, 0, t, x, bend},    {2, SPH_DIM, t, x, bend},
+                              {2, 0, NULL, x, bend}, {2, 0, t, NULL, bend}, {2, 0, t, x, NULL}};
+    double d[SPH_DIM], v[SPH_DIM];
+    for (uint32_t k = 0; k <= 6; k++) {
+        for (int a = 0; a < SPH_DIM; a++)
+            d[a] = v[a] = 7;
+        sph_motion_spline(k < 6 ? (void *)(uintptr_t)&bad[k] : NULL, 0.5, d, v);
+        for (int a = 0; a < SPH_DIM; a++)
+            assert_true(d[a] == 0 && v[a] == 0);
+    }
+    EACH_NUMBER(now) {
+        sph_spline m = {2, 0, t, x, bend};
+        sph_motion_spline(&m, now, d, v);
+        if (finite(now))
+            assert_true(d[0] >= 0 && d[0] <= 2);
+    }
+}
 static void row_add_wall_box(void)
 {
     VECTOR(lo, 0.0) VECTOR(hi, 0.5)
@@ -681,6 +741,30 @@ static void row_add_wall_box(void)
     }
 }
 #if SPH_DIM == 2
+static void row_add_wall_polyline(void)
+{
+    double p[3][2] = {{0, 0}, {0.5, 0}, {1, 0.2}};
+    sph_wall w = sph_wall_default();
+#define POINTS (const double(*)[2]) p
+    no_sim(sph_add_wall_polyline(NULL, &w, POINTS, 3, OUT(uint32_t)));
+    refused(sph_add_wall_polyline(bed.sim, NULL, POINTS, 3, OUT(uint32_t)));
+    refused(sph_add_wall_polyline(bed.sim, &w, NULL, 3, OUT(uint32_t)));
+    refused(sph_add_wall_polyline(bed.sim, &w, POINTS, 1, OUT(uint32_t)));
+    refused(sph_add_wall_polyline(bed.sim, &w, POINTS, 0xffffffffu, OUT(uint32_t)));
+    if_adding(sph_add_wall_polyline(bed.sim, &w, POINTS, 3, NULL), SPH_OK);
+    EACH_NUMBER(x)
+        for (uint32_t kind = 0; kind < SPH_WALLS; kind++)
+            for (int k = 0; k < 6; k++) {
+                double *const q = &p[k / 2][k % 2], good = *q;
+                w.kind = kind;
+                *q = x;
+                attempt(sph_add_wall_polyline(bed.sim, &w, POINTS, 3, OUT(uint32_t)));
+                if (!finite(x) || x > 1e6 || x < -1e6)
+                    refused(sph_add_wall_polyline(bed.sim, &w, POINTS, 3, OUT(uint32_t)));
+                *q = good;
+            }
+#undef POINTS
+}
 static void row_add_wall_segment(void)
 {
     double a[2] = {0, 0}, b[2] = {1, 0};
@@ -994,7 +1078,7 @@ static const row rows[] = {
     ROW(get_usage), ROW(last), ROW(reconfigure), ROW(add_fluid), ROW(add_solid), ROW(add_particle), ROW(add_box),
     ROW(add_ring),
 #if SPH_DIM == 2
-    ROW(add_polygon), ROW(add_wall_segment),
+    ROW(add_polygon), ROW(add_wall_segment), ROW(add_wall_polyline),
 #endif
 #if SPH_DIM == 3
     ROW(add_wall_plane),
@@ -1003,6 +1087,7 @@ static const row rows[] = {
     ROW(add_flaws), ROW(get_flaws),
 #endif
     ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(motion_steady), ROW(wall_default),
+    ROW(motion_programme), ROW(spline_make), ROW(motion_spline),
     ROW(add_wall_box),
     ROW(remove_wall), ROW(remove_wall_at), ROW(ready), ROW(step), ROW(step_to), ROW(step_slice), ROW(step_cancel),
     ROW(get_step), ROW(time), ROW(count), ROW(get), ROW(get_totals), ROW(probe), ROW(probe_line), ROW(gauge),

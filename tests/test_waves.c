@@ -162,7 +162,7 @@ static void the_crest_of_a_known_wave_is_found_with_its_place_height_and_speed(v
         const double dx = 1.0 / 12, at = 6 + 0.37 * k * dx, length = k % 2 ? 12 : 18;
         sph_config c = open_config(20, dx);
         const sph_fluid f = {.mass = 1000 * dx * dx};
-        const track_tank tank = {0, length, 1, dx, k > 3};
+        const track_tank tank = {0, length, 1, dx, k > 3, NULL, NULL};
         uint32_t set;
         sph_sim *sim = new_sim(&c);
         must(sim, sph_add_fluid(sim, &f, &set));
@@ -185,7 +185,7 @@ static void water_at_rest_is_level_up_to_both_ends(void **state)
     must(sim, sph_add_fluid(sim, NULL, &set));
     must(sim, sph_add_box(sim, set, lo, hi, NULL));
     for (int periodic = 0; periodic < 2; periodic++) {
-        const track_tank tank = {0, 4, 1, dx, periodic == 1};
+        const track_tank tank = {0, 4, 1, dx, periodic == 1, NULL, NULL};
         const track_crest found = track_highest(sim, &tank);
         close_to(found.height, 1, 1e-4);
         close_to(found.speed, 0, 1e-12);

@@ -20,8 +20,8 @@ QUARTER = dict(CHEAPEST, n=6)
 class Wave(Run):
     """a run of the scene, which says what it cost"""
 
-    def __init__(self, **options):
-        super().__init__("solitary", **options)
+    def __init__(self, scene="solitary", **options):
+        super().__init__(scene, **options)
 
     def command(self, tool):
         return super().command(tool) + [f"cost={self.prefix()}.cost"]
@@ -64,6 +64,179 @@ def mound_speed(run, exact):
 
 def mound_height(run, exact, t=5):
     return 100 * abs(interpolate(run.col("time"), run.col("crest_m"), t) / exact - 1)
+
+
+def known(table, **where):
+    """the last row of a table with these values"""
+    return [r for r in read_table(table) if all(abs(float(r[k]) - v) < 1e-6 for k, v in where.items())][-1]
+
+
+def off(value, exact):
+    return 100 * abs(value / exact - 1)
+
+
+# ---- piston (G4) ----
+
+def stopped(run, name):
+    """of when the piston has just stopped"""
+    piston = run.col("piston_m")
+    return run.col(name)[next(i for i, x in enumerate(piston) if x >= piston[-1] - 1e-9)]
+
+
+def at_middle(run, name, length):
+    """of when the crest passes the middle of the tank"""
+    x, y = run.col("crest_x_m"), run.col(name)
+    for a, b, c, d in zip(x, x[1:], y, y[1:]):
+        if a < length / 2 <= b:
+            return c + (d - c) * (length / 2 - a) / (b - a)
+    return None
+
+
+def piston_books(run):
+    """% of the work of the piston that the balance has lost"""
+    balance, work = run.col("balance"), run.col("wall_work")
+    return 100 * abs(balance[-1] - balance[0]) / max(work)
+
+
+def piston_rows(add, t_star, length, run):
+    exact, name = known("wave_piston_summary.csv", t_star=t_star), f"G4 piston t*={t_star}"
+    add(f"{name}: crest at mid-tank", "% of potential flow", 3.0, [run],
+        lambda r: off(at_middle(r, "crest_m", length), float(exact["crest_mid_cm"]) / 100))
+    add(f"{name}: speed there", "% of potential flow", 3.0, [run],
+        lambda r: off(at_middle(r, "speed_m/s", length), float(exact["speed_mid"])))
+    if exact["runup_R_over_D"] != "nan":
+        add(f"{name}: run-up", "% of potential flow", 3.0, [run],
+            lambda r: off(max(r.col("runup_m")) / 0.16, float(exact["runup_R_over_D"])))
+    add(f"{name}: work on the water", "% of potential flow", 3.0, [run],
+        lambda r: off(stopped(r, "work_J"), float(exact["wall_work_J"])))
+    add(f"{name}: potential energy gained", "% of potential flow", 3.0, [run],
+        lambda r: off(stopped(r, "gain_potential"), float(exact["dPE_end_J"])))
+    add(f"{name}: work over Gray's printed", "-", None, [run],
+        lambda r: stopped(r, "work_J") / float(exact["gray_work"]))
+    add(f"{name}: cost", "M particle-steps", None, [run], lambda r: r.cost())
+
+
+# ---- bores (G6, G7) ----
+
+def bore_speed(run, first):
+    points = between(run, "front", first, 1e9)
+    return abs(slope([p[0] for p in points], [p[1] for p in points]))
+
+
+def mean_from(run, name, first):
+    values = [v for t, v in between(run, name, first, 1e9)]
+    return sum(values) / len(values)
+
+
+# ---- breaking (W7, W8, G7) ----
+
+def vertical_tangent(run, clock, after):
+    """when the face of the leading crest first leans over, and has done so in all of the next four rows"""
+    t, lean = run.col(clock), run.col("lean")
+    for i in range(1, len(t) - 4):
+        if t[i] > after and lean[i - 1] < 0 and all(v >= 0 for v in lean[i:i + 4]):
+            return t[i - 1] + (t[i] - t[i - 1]) * lean[i - 1] / (lean[i - 1] - lean[i])
+    raise ValueError("no vertical tangent")
+
+
+def at_time(run, clock, name, t):
+    return interpolate(run.col(clock), run.col(name), t)
+
+
+# ---- flap ----
+
+def flap_waves(run):
+    """amplitudes (D) of the wave that comes and of the one that goes back, by least squares over three gauges (Mansard
+    & Funke 1980) from period 7 to 10"""
+    import cmath
+    k, t = run.col("wave_number")[0], run.col("t_periods")
+    rows = [i for i, v in enumerate(t) if 7 <= v < 10]
+    s11 = s12 = b1 = b2 = 0
+    for n in (1, 2, 3):
+        x, eta = run.col(f"gauge{n}_x")[0], run.col(f"gauge{n}_D")
+        mean = sum(eta[i] for i in rows) / len(rows)
+        a = 2 / len(rows) * sum((eta[i] - mean) * cmath.exp(2j * cmath.pi * t[i]) for i in rows)
+        f, g = cmath.exp(1j * k * x), cmath.exp(-1j * k * x)
+        s11 += 1
+        s12 += f.conjugate() * g
+        b1 += f.conjugate() * a
+        b2 += g.conjugate() * a
+    det = s11 * s11 - abs(s12) ** 2
+    return abs((s11 * b1 - s12 * b2) / det), abs((s11 * b2 - s12.conjugate() * b1) / det)
+
+
+def flap_period(run):
+    """periods of the flap between upward crossings at the second gauge, from period 6 on"""
+    t, eta = run.col("t_periods"), run.col("gauge2_D")
+    ups = [a + (b - a) * u / (u - v) for a, b, u, v in zip(t, t[1:], eta, eta[1:]) if a > 6 and u < 0 <= v]
+    return (ups[-1] - ups[0]) / (len(ups) - 1)
+
+
+def more_cases(add, quick):
+    """waves that are made, meet and break"""
+    corrected = dict(gradient="bonet_lok")
+    piston_rows(add, 3, 1.8, Wave("piston", every=0.02, **corrected))
+    if not quick:
+        piston_rows(add, 1, 1.8, Wave("piston", t_star=1, every=0.02, **corrected))
+        piston_rows(add, 5, 3.6, Wave("piston", t_star=5, length=3.6, every=0.02, end=2.2, **corrected))
+    for bed, wall in (("wall", "adami"), ("wall", "ghost_compressible"), ("symmetry", "adami"),
+                      ("symmetry", "ghost_compressible")):
+        add(f"G4 piston t*=3, {wall} piston, {bed} bed: books", "% of the work", 1.0,
+            [Wave("piston", bed=bed, wall=wall, n=10, end=1, every=0.05, **corrected)], piston_books)
+    add("G4 piston t*=3 by a table: work on the water", "% of the programme's", 1.0,
+        [Wave("piston", n=10, end=1, every=0.05, **corrected),
+         Wave("piston", n=10, end=1, every=0.05, motion="table", **corrected)],
+        lambda a, b: off(b.col("work_J")[-1], a.col("work_J")[-1]))
+    for made in ("water", "wall"):
+        run, exact = Wave("bore", made=made, length=60, travel=24, n=8, every=0.2), known("wave_bore_jump.csv", V=8.5)
+        frame = "tank" if made == "water" else "still_water"
+        add(f"G6 bore 8.5 m/s made by {made}: speed", "% of the exact jump", 1.0, [run],
+            lambda r, f=frame, e=exact: off(bore_speed(r, 10), float(e[f"bore_speed_{f}_frame"])))
+        add(f"G6 bore 8.5 m/s made by {made}: depth behind", "% of the exact jump", 2.0, [run],
+            lambda r, e=exact: off(mean_from(r, "behind_m", 15), float(e["H1"])))
+        add(f"G6 bore 8.5 m/s made by {made}: cost", "M particle-steps", None, [run], lambda r: r.cost())
+    for v in (2,) if quick else (1, 2, 3):
+        exact = [r for r in read_table("wave_bore_trains.csv")
+                 if float(r["V"]) == v and abs(float(r["t"]) - 24.73612) < 1e-3][-1]
+        run = Wave("bore", made="wall", speed=v, rise=2.0, alpha=0.001, length=42, travel=24.6, sound=10, every=0.2,
+                   **corrected)
+        add(f"G7 undular bore {v} m/s: first crest at 24.7 s", "% of potential flow", 3.0, [run],
+            lambda r, e=exact: off(at_time(r, "time", "crest_m", 24.736), float(e["eta1"])))
+        add(f"G7 undular bore {v} m/s: first two crests apart", "% of potential flow", 3.0, [run],
+            lambda r, e=exact: off(at_time(r, "time", "spacing_m", 24.736), float(e["spacing12"])))
+        add(f"G7 undular bore {v} m/s: cost", "M particle-steps", None, [run], lambda r: r.cost())
+    meet = Wave("collision", every=0.02, **corrected)
+    exact = read_table("wave_collision.csv")[-1]
+    add("W6 collision: peak", "% of potential flow", 2.0, [meet],
+        lambda r: off(max(h for t, h in zip(r.col("t_"), r.col("highest")) if 6 < t < 12), float(exact["peak"])))
+    for side, size in (("right", "large"), ("left", "small")):
+        add(f"W6 collision: {size} wave after over before", "% (potential flow "
+            f"{100 * float(exact[f'change_{size}']):.2f})", None, [meet],
+            lambda r, s=side: 100 * (at_time(r, "t_", f"{s}_height", 24) / at_time(r, "t_", f"{s}_height", 3) - 1))
+        add(f"W6 collision: lag of the {size} wave", "% of potential flow", 20.0, [meet],
+            lambda r, s=side, z=size: off(at_time(r, "t_", f"{s}_lag", 24), float(exact[f"lag_{z}"])))
+    add("W6 collision: cost", "M particle-steps", None, [meet], lambda r: r.cost())
+    for name, options in (("plain", {}), ("corrected", corrected))[1 if quick else 0:]:
+        run = Wave("breaking", every=0.02, end=2.1, **options)
+        add(f"W7 breaking {name}: vertical tangent", "% of potential flow", 5.0, [run],
+            lambda r: off(vertical_tangent(r, "time", 0.8), 1.863))
+        add(f"W7 breaking {name}: cost", "M particle-steps", None, [run], lambda r: r.cost())
+    if not quick:
+        exact = known("wave_shoaling_breaking.csv", slope_1_to=35, e=0.4)
+        run, clock = Wave("shoaling", every=0.02, **corrected), "t_from_toe"
+        for what, column, figure, target in (("place", "crest_x_D", "x_crest", 3.0), ("height", "crest_D", "H_b", 5.0),
+                                             ("index", "index", "H_b_over_h_crest", 5.0)):
+            add(f"W8 shoaling 1:35 e=0.4: {what} at the vertical tangent", "% of potential flow", target, [run],
+                lambda r, c=column, f=figure: off(at_time(r, clock, c, vertical_tangent(r, clock, 5)),
+                                                  float(exact[f])))
+        add("W8 shoaling 1:35 e=0.4: cost", "M particle-steps", None, [run], lambda r: r.cost())
+    flap = Wave("flap", every=0.03, **corrected)
+    add("W6.9 flap: period of the waves", "% of the flap's", 1.0, [flap], lambda r: off(flap_period(r), 1))
+    add("W6.9 flap: height of the waves", "% of linear theory", 5.0, [flap],
+        lambda r: off(2 * flap_waves(r)[0], r.col("height_linear")[0]))
+    add("W6.9 flap: what a beach of 1:6 gives back", "% of the height", None, [flap],
+        lambda r: 100 * flap_waves(r)[1] / flap_waves(r)[0])
+    add("W6.9 flap: cost", "M particle-steps", None, [flap], lambda r: r.cost())
 
 
 def cases(quick):

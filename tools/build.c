@@ -148,7 +148,7 @@ static void totals(const build_sim *s, build_totals *out)
                           o.potential, o.internal, o.elastic,     o.plastic_work, o.wall_work, o.dissipated,
                           o.diffused,  o.removed_mass, o.max_speed, o.min_density, o.max_density,
                           o.body_work, o.in_walls, o.in_bonds,    o.unbalanced,   0,           o.balance};
-    out->at_once = o.absorbed + o.shifted + o.carried_off + o.released + o.put_back_loss + o.filtered + o.damped;
+    out->at_once = o.absorbed + o.shifted + o.quieted + o.slowed + o.evened + o.carried_off + o.released + o.put_back_loss + o.filtered + o.damped;
     for (int k = 0; k < SPH_DIM; k++)
         out->momentum[k] = o.momentum[k];
 }

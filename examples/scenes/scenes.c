@@ -27,7 +27,17 @@
     X(chamber)                                                                                              \
     X(block)                                                                                                \
     X(caldera)                                                                                              \
-    X(solitary)
+    X(solitary)                                                                                             \
+    X(weir)                                                                                                 \
+    X(caldera_wave)                                                                                         \
+    X(wave_train)                                                                                           \
+    X(still_water)                                                                                          \
+    X(piston)                                                                                               \
+    X(bore)                                                                                                 \
+    X(collision)                                                                                            \
+    X(breaking)                                                                                             \
+    X(shoaling)                                                                                             \
+    X(flap)
 #else
 #define SCENE_LIST(X)                                                                                       \
     X(dam_break_3d)                                                                                         \

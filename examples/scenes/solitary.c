@@ -192,18 +192,10 @@ static const char *const column[] = {
 /* a column's height from its mass, over the bed (m) */
 static double risen(const double *p, double mass) { return mass / pressed(p, mass / p[DEPTH] - 1); }
 
-/* Surface at a wall (m above still water): it is even about the wall, so from those one, two and three supports off it,
-   where the gauge sees water on both sides, by the even polynomial of fourth order. The mass near a wall would not do:
-   water may stand nearer to it than its spacing. */
 static double wall_surface(const sph_sim *sim, const double *p, double wall, double inward)
 {
-    const double off = inward * sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * spacing(p);
-    double h[3] = {0};
-    for (int k = 0; k < 3; k++) {
-        const double bed[2] = {wall + (k + 1) * off, 0};
-        sph_surface(sim, bed, 1, &h[k]);
-    }
-    return (15 * h[0] - 6 * h[1] + h[2]) / 10 - p[DEPTH];
+    const double support = sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * spacing(p);
+    return track_at_wall(sim, wall, inward, support) - p[DEPTH];
 }
 
 static void history(const sph_sim *sim, const double *p, double *row)
@@ -211,7 +203,7 @@ static void history(const sph_sim *sim, const double *p, double *row)
     double lo[2], hi[2], high = 0;
     sph_totals o;
     tank(p, lo, hi);
-    const track_tank t = {lo[0], hi[0], p[DEPTH], spacing(p), p[SIDES] == PERIODIC};
+    const track_tank t = {lo[0], hi[0], p[DEPTH], spacing(p), p[SIDES] == PERIODIC, NULL, NULL};
     const track_crest c = track_highest(sim, &t);
     const double bed[2] = {c.x, 0}, speed = wave_speed(p);
     sph_get_totals(sim, &o);

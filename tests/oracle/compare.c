@@ -436,6 +436,15 @@ static void compare_trajectories(const sph_sim *sim, const o_scene *s)
     }
     sph_totals t;
     sph_get_totals(sim, &t);
+    if (s->cfg.damper > 0)
+        check("book of the damper", SPH_NO_PARTICLE, 0, t.quieted,
+              near(s->quieted.v, s->quieted.s + heat_of(s), spread.quieted), 0);
+    if (s->cfg.damping_rate > 0)
+        check("book of damping", SPH_NO_PARTICLE, 0, t.slowed,
+              near(s->slowed.v, s->slowed.s + heat_of(s), spread.slowed), 0);
+    if (s->cfg.xsph_velocity)
+        check("book of evening", SPH_NO_PARTICLE, 0, t.evened,
+              near(s->evened.v, s->evened.s + heat_of(s), spread.evened), 0);
     if (s->cfg.shifting > 0)
         check("book of shifting", SPH_NO_PARTICLE, 0, t.shifted,
               near(s->shifted.v, s->shifted.s + heat_of(s), spread.shifted), 0);

@@ -72,9 +72,12 @@ o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps,
             o_step(&s, k, dt, flaws_of);
         if (s.n != end->n) { /* even who is still there */
             const double any = (double)INFINITY;
-            return (o_spread){any, any, any, any, any, any, any};
+            return (o_spread){any, any, any, any, any, any, any, any, any, any};
         }
         widen(&o.shifted, s.shifted.v, end->shifted.v);
+        widen(&o.quieted, s.quieted.v, end->quieted.v);
+        widen(&o.slowed, s.slowed.v, end->slowed.v);
+        widen(&o.evened, s.evened.v, end->evened.v);
         for (uint32_t i = 0; i < s.n; i++) {
             const o_particle *p = &s.own[i], *q = &end->own[i];
             widen(&o.d, p->d, q->d);

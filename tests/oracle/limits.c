@@ -11,7 +11,8 @@
    The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25; beside
    solids 0.22 times the cube root of (delta + nu/(h c) or alpha/8)/(0.01/8), times 0.75 (updated) or 0.42, but 0.05 at
    least. Runge-Kutta, which multiplies an oscillation by 1 + (w dt)^4/8 where the predictor-corrector has a fourth:
-   beside solids the cube root of 2 times that. */
+   beside solids the cube root of 2 times that.
+   With the damper 1.5/(1 + 2 theta) at most, in the predictor-corrector 1/(1 + 4 theta) of what it stands else. */
 #include "oracle.h"
 
 double o_courant_number(const sph_config *c)
@@ -19,13 +20,13 @@ double o_courant_number(const sph_config *c)
     double d = c->diffusion ? c->delta : 0;
     const bool rk = (c->integrator == SPH_RUNGE_KUTTA || c->integrator == SPH_RUNGE_KUTTA_MOMENTUM) && c->solid;
     if (c->integrator != SPH_PREDICTOR_CORRECTOR && !rk)
-        return c->cfl;
+        return c->damper > 0 ? o_min(c->cfl, 1.5 / (1 + 2 * c->damper)) : c->cfl;
     if (c->viscosity == SPH_MORRIS)
         d += c->nu / (c->smoothing_length * c->sound_speed);
     else if (c->viscosity)
         d += c->alpha / 8;
     if (!c->solid)
-        return o_min(c->cfl, c->gradient ? 0.25 : 0.5);
+        return o_min(c->cfl, (c->gradient ? 0.25 : 0.5) / (1 + 4 * c->damper));
     const double x = d / (0.01 / 8), stands = x < 1e-3 ? 0 : 0.22 * cbrt(o_min(x, 1e6));
     const double own = o_max(stands * (c->solid >= SPH_CORRECTED ? 0.42 : 0.75), 0.05);
     return o_min(c->cfl, own * (rk ? cbrt(2) : 1));

@@ -140,7 +140,8 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
 {
     const sph_set *s = &sim->set[k];
     *o = (o_set){.role = s->role, .kind = s->kind, .eos = s->eos, .compressible = s->compressible,
-                 .no_slip = s->no_slip, .mass = s->mass, .rho0 = s->rho0, .c0 = s->c0, .strength = s->strength};
+                 .no_slip = s->no_slip, .side = s->side, .half = {s->half[0], s->half[1]}, .mass = s->mass,
+                 .rho0 = s->rho0, .c0 = s->c0, .strength = s->strength};
     if (s->group < SPH_MAX_GROUPS && sim->group[s->group].motion == sph_motion_table)
         o->table = sim->group[s->group].ctx;
     for (int a = 0; a < SPH_DIM; a++) {
@@ -159,8 +160,6 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
     }
     o->region = s->role != SPH_ROLE_FLUID && s->role != SPH_ROLE_SOLID && !s->corner;
     o->thick = o->region ? s->thick : 0;
-    for (int a = 0; a < SPH_DIM - 1 && o->region; a++)
-        o->half[a] = s->half[a];
     if (s->role != SPH_ROLE_SOLID)
         return;
     const sph_material *m = &sim->material[k];

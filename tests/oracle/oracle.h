@@ -37,6 +37,8 @@ static inline void o_plus(o_sum *a, double term) { o_add(a, term, fabs(term)); }
 typedef struct o_set {
     uint32_t role, kind, eos; /* SPH_ROLE_..., SPH_WALL_..., SPH_TAIT ... */
     bool compressible, no_slip;
+    uint32_t side;                            /* SPH_BOTH_SIDES ... */
+    double half[2];                           /* m: of walls, to both sides of the middle of the face, along tangents */
     double mass, rho0, c0, strength;          /* kg, kg/m^3, m/s; of walls as in sph_wall */
     double origin[3], normal[3], tangent[3];  /* of walls: a point of the face (m), into the fluid, along the face */
     double start[3], accel[3];                /* motion v t + a t^2/2 of what moves as it is told */
@@ -47,7 +49,7 @@ typedef struct o_set {
     uint32_t body, held;
     bool flat;
     bool region;                              /* of walls: whether there is one behind the face, */
-    double thick, half[2];                    /* so thick, and to both sides of its middle so wide, m */
+    double thick;                             /* so thick, m */
 } o_set;
 
 typedef struct o_particle {
@@ -78,6 +80,7 @@ typedef struct o_particle {
     double pull[3][3];         /* artificial stress R */
     double cover;              /* Q of the quadrature weights */
     o_sum phi;                 /* the weight; 0: 1 */
+    double quiet;              /* Pa, pressure of the damper */
     double way[3];             /* how its place moves: v + xsph, m/s */
     double beside[3];          /* xsph alone */
     /* results */
@@ -103,6 +106,7 @@ typedef struct o_scene {
     o_particle *all;           /* m: the particles and then the images */
     uint32_t room;
     double fastest;            /* m/s: of the bodies, when the last forces were made */
+    o_sum quieted, slowed, evened; /* J, what damper, damping by a rate and XSPH in the velocity took, likewise */
     o_sum shifted;             /* J, what shifting took since o_begin_steps */
     uint32_t left, crossed, put_back; /* particles since o_begin_steps, and their energies, J */
     o_sum carried_off, put_back_loss;
@@ -165,6 +169,8 @@ typedef struct o_pair {
 } o_pair;
 bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p); /* false: beyond the support */
 
+bool o_acts_on(o_scene *s, const o_particle *wall, const o_particle *body); /* sides.c: true for other pairs */
+
 /* ---- the modules, one file each; what each computes is at its head ---- */
 void o_sum_density(o_scene *s);                /* density.c */
 void o_sum_rates(o_scene *s);
@@ -195,6 +201,11 @@ void o_yield(o_scene *s);                                                       
 void o_yield_from(const o_scene *s, o_particle *p, const double (*from)[3]); /* that went from there to p->dev */
 double o_grown_root(o_scene *s, const o_particle *i, const float *flaw, uint32_t flaws, double dt); /* damage.c */
 double o_sponge(const o_scene *s, const o_particle *i);                                    /* sponge.c: S */
+void o_quiet(const o_scene *s, o_particle *i, double rate); /* damper.c; rate: of the excess, 1/s */
+void o_book_quiet(o_scene *s, const o_particle *i, double middle, double dt);
+void o_slow(o_scene *s, double dt);
+void o_even(o_scene *s);
+bool o_drifts(const o_scene *s);               /* whether positions go with XSPH's velocity */
 void o_find_disorder(o_scene *s);              /* shifting.c */
 void o_shift(o_scene *s, double dt);
 void o_turn_round(o_particle *p, int k, double plane, bool tensors); /* steps.c: a mirror across axis k at `plane` */
@@ -210,7 +221,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
 
 /* ---- condition.c ---- */
 typedef struct o_spread { /* what comes of an error at the beginning; infinite: anything */
-    double x, v, d, dev, plastic, root, shifted;
+    double x, v, d, dev, plastic, root, shifted, quieted, slowed, evened;
 } o_spread;
 void o_keep(o_scene *kept, const o_scene *s); /* a copy without images, in memory of its own */
 o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps, double dt,

@@ -37,7 +37,7 @@ bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p)
     }
     p->edge = fabs(p->q - s->support) <= (SPH_DOUBLE ? 1e-9 : 1e-4) * s->support;
     const bool beyond = p->q >= s->support; /* at the edge: a pair of which nothing is left but that it is one */
-    if (beyond && !p->edge)
+    if ((beyond && !p->edge) || !o_acts_on(s, i, j) || !o_acts_on(s, j, i))
         return false;
     const double slope = beyond ? 0 : o_weight_slope(kernel, p->q, h);
     p->g = p->q > 0 ? slope / p->q : 0;

@@ -184,6 +184,8 @@ static void draw_wall(plan *p, plan_wall *w, double *need)
     w->wall.kind = pick(SPH_WALLS);
     w->wall.compressible = chance(0.5);
     w->wall.no_slip = chance(0.6);
+    if (w->wall.kind >= SPH_WALL_GHOST && !w->wall.compressible && chance(0.4))
+        w->wall.side = SPH_FRONT + pick(2);
     w->wall.layers = SPH_DIM < 3 && chance(0.3) ? 0 : 1 + pick(SPH_DIM == 3 ? 2 : 3);
     w->wall.strength = chance(0.5) ? 0 : range(0.01, 5);
     w->inside = chance(0.6);
@@ -361,6 +363,17 @@ static void draw_the_going(plan *p)
     }
 }
 
+/* damper, damping by a rate, XSPH in the velocity; last, so that they change nothing before */
+static void draw_small(plan *p)
+{
+    sph_config *c = &p->cfg;
+    const bool quiets = !p->still_step && c->solid == SPH_NO_SOLID && c->integrator < SPH_RUNGE_KUTTA &&
+                        c->density == SPH_CONTINUITY && c->scheme != SPH_STANDARD_WICK && c->scheme != SPH_WEAK_WICK;
+    c->damper = quiets && chance(0.3) ? range(0.05, 1) : 0;
+    c->damping_rate = !p->still_step && chance(0.15) ? range(0.01, 2) * c->sound_speed / c->spacing : 0;
+    c->xsph_velocity = c->xsph > 0 && !c->xsph_strain && !p->still_step && chance(0.4);
+}
+
 void plan_draw(plan *p, uint64_t seed)
 {
     memset(p, 0, sizeof *p);
@@ -394,6 +407,7 @@ void plan_draw(plan *p, uint64_t seed)
         p->solid[k].flat_faces = p->cfg.face_quadrature && chance(0.8);
     draw_tables(p);
     draw_the_going(p);
+    draw_small(p);
 }
 
 void plan_print(const plan *p)
@@ -407,13 +421,15 @@ void plan_print(const plan *p)
         {"plain", "bonet_lok", "renormalised"},
         {"no solid", "updated", "corrected", "total"},
         {"tait", "tait_gray", "linear", "isothermal"},
-        {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"}};
+        {"lennard_jones", "kernel_force", "monaghan_kos", "ghost", "adami"},
+        {"both sides", "front", "face"}};
     const sph_config *c = &p->cfg;
     printf("  seed %llu: %s, h %.6g dx %.6g, rho0 %g, c %g, %s%s, %s%s, alpha %g beta %g nu %g, %s delta %g, %s, "
-           "xsph %g, shifting %g, integrator %u, steps %u\n",
+           "xsph %g%s, shifting %g, damper %g, rate %g, integrator %u, steps %u\n",
            (unsigned long long)p->seed, word[1][c->kernel], c->smoothing_length, c->spacing, c->rho0, c->sound_speed,
            word[2][c->scheme], c->density ? " summation" : "", word[3][c->viscosity], c->pressure_floor ? " floor" : "",
-           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph, c->shifting,
+           c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph,
+           c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
     printf("  shear %u, cs %g, ci %g, filter %u\n", c->shear, c->smagorinsky, c->subgrid, c->filter);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
@@ -432,9 +448,9 @@ void plan_print(const plan *p)
                p->solid[k].sound_speed, p->solid[k].mass, p->solid[k].shear, p->solid[k].yield, p->solid[k].hardening,
                p->solid[k].body, p->solid[k].held);
     for (uint32_t k = 0; k < p->walls; k++)
-        printf("  wall %u: %s%s%s %s layers %u strength %g faces %u, from %g to %g, velocity %g\n", k,
+        printf("  wall %u: %s%s%s %s %s layers %u strength %g faces %u, from %g to %g, velocity %g\n", k,
                word[8][p->wall[k].wall.kind], p->wall[k].wall.compressible ? " compressible" : "",
-               p->wall[k].wall.no_slip ? " no slip" : "",
+               p->wall[k].wall.no_slip ? " no slip" : "", word[9][p->wall[k].wall.side],
                p->wall[k].flat ? "flat" : p->wall[k].inside ? "tank" : "block",
                p->wall[k].wall.layers, p->wall[k].wall.strength, p->wall[k].faces, p->wall[k].lo[0], p->wall[k].hi[0],
                p->wall[k].motion.v[0]);

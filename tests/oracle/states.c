@@ -56,6 +56,9 @@ static void refresh(const o_scene *s, o_particle *p)
     p->p = o_pressure(set->eos, set->rho0, set->c0, p->d);
     if (s->cfg.pressure_floor && !solid)
         p->p = o_max(p->p, 0);
+    p->p += p->quiet;
+    if (s->cfg.pressure_floor && !solid)
+        p->p = o_max(p->p, 0);
     p->c = set->c0;
     const double acts = p->p < 0 ? (1 - damage) * p->p : p->p;
     for (int k = 0; k < 3; k++)

@@ -12,7 +12,7 @@
                           whole step with them                  (Wickramarachchi 2009 3.85-3.87, 3.91-3.92: one rule)
    Stresses go as densities do, and return to the yield surface wherever they have gone. What moves as it is told is
    where its motion says at each of these times. Damage grows with them, by what the strain was at the step's beginning.
-   At the end of a step sponges take, then shifting. Faces: periodic ones let in on the other side; a plane of symmetry
+   At the end of a step XSPH in the velocity, damping by a rate, sponges, then shifting. Damper: damper.c. Faces: periodic ones let in on the other side; a plane of symmetry
    takes the mirrored particle instead, with all that it has: place, reference position, velocity, stress, and their
    rates. A no-slip mirror throws it back: what has a direction turns
    along its normal, but the shear stress on the plane, which goes on through it, stays. */
@@ -52,7 +52,7 @@ static void remember_rates(const o_scene *s)
         b->rate = evolves(s, p) ? p->rate.v / s->set[p->set].rho0 : 0;
         for (int k = 0; k < 3; k++) {
             b->a[k] = p->a[k].v;
-            b->u[k] = s->cfg.xsph > 0 ? p->drift[k].v : 0;
+            b->u[k] = o_drifts(s) ? p->drift[k].v : 0;
             for (int l = 0; l < 3; l++)
                 b->dev_rate[k][l] = o_is_solid(s, p) ? p->stress_rate[k][l].v : 0;
         }
@@ -83,6 +83,7 @@ void o_begin_steps(o_scene *s, uint32_t room)
     memset(was, 0, room * sizeof *was);
     last = 0;
     s->shifted = s->carried_off = s->put_back_loss = (o_sum){0, 0};
+    s->quieted = s->slowed = s->evened = (o_sum){0, 0};
     s->left = s->crossed = s->put_back = 0;
     remember_rates(s);
 }
@@ -319,7 +320,7 @@ static void go_whole(o_scene *s, double dt)
 /* places went with u of the beginning: dt/2 (u' - u) more */
 static void mend_drift(o_scene *s, double dt)
 {
-    for (uint32_t i = 0; i < s->n && s->cfg.xsph > 0; i++)
+    for (uint32_t i = 0; i < s->n && o_drifts(s); i++)
         for (int k = 0; k < SPH_DIM && o_is_body(s, &s->own[i]); k++)
             if (!is_held(s, &s->own[i], k))
                 s->own[i].x[k] += half(dt) * (s->own[i].drift[k].v - turned(&was[i], k, was[i].u[k]));
@@ -338,6 +339,8 @@ static void predict_correct(o_scene *s, uint32_t number, double dt)
     for (uint32_t i = 0; i < s->n; i++)
         if (foresees && evolves(s, &s->own[i]))
             s->own[i].d += foresight * was[i].rise;
+    for (uint32_t i = 0; i < s->n; i++)
+        o_quiet(s, &s->own[i], was[i].rate + 2 * was[i].rise * (dt < 2 * last ? dt / last : 2));
     s->time += dt;
     find_density(s, number);
     o_forces(s);
@@ -351,6 +354,8 @@ static void predict_correct(o_scene *s, uint32_t number, double dt)
             const double rise = p->rate.v / s->set[p->set].rho0 - b->rate;
             p->d += half(dt) * rise - (foresees ? foresight * b->rise : 0);
             b->rise = half(rise);
+            if (s->cfg.damper > 0)
+                o_book_quiet(s, p, p->rate.v / s->set[p->set].rho0 - b->rise, dt);
         }
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3 && o_is_solid(s, p); l++)
@@ -380,6 +385,7 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
         o_particle *p = &s->own[i];
         beginning *b = &was[i];
         b->rise = evolves(s, p) ? p->rate.v / s->set[p->set].rho0 : 0; /* what the next step begins with */
+        o_quiet(s, p, b->rise + (b->rise - b->rate) * dt / (dt + last));
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3; l++)
                 b->dev_rate[k][l] = o_is_solid(s, p) ? p->stress_rate[k][l].v : 0;
@@ -402,6 +408,8 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
                           (p->v[k] + half(dt) * ((leaps ? 2 : 1) * p->a[k].v - turned(b, k, b->a[k])));
     }
     mend_drift(s, dt);
+    for (uint32_t i = 0; i < s->n && s->cfg.damper > 0; i++)
+        o_book_quiet(s, &s->own[i], was[i].rise, dt);
     for (uint32_t i = 0; i < s->n; i++)
         for (int k = 0; k < 3; k++)
             for (int l = 0; l < 3; l++)
@@ -427,8 +435,9 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
         o_particle *p = &s->own[i];
         beginning *b = &was[i];
         for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++) {
-            const double u = s->cfg.xsph > 0 ? p->drift[k].v : 0;
+            const double u = o_drifts(s) ? p->drift[k].v : 0;
             p->x[k] = b->x[k] + dt * (b->v[k] + half(dt) * b->a[k] + turned(b, k, u));
+            p->drift[k].v = turned(b, k, p->drift[k].v);
             p->v[k] = s->cfg.damping * (b->v[k] + dt * turned(b, k, p->a[k].v));
         }
         if (!evolves(s, p))
@@ -453,6 +462,7 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
 {
     const uint32_t by = s->cfg.integrator;
+    o_slow(s, dt);
     remember_state(s);
     foresee_damage(s, dt, flaws_of);
     if (by == SPH_PREDICTOR_CORRECTOR)
@@ -463,6 +473,8 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
         runge_kutta(s, number, dt);
     o_cross(s);
     forget_the_gone(s);
+    o_even(s);
+    o_slow(s, dt);
     o_refresh(s);
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
@@ -489,7 +501,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
         was[i].rate = was[i].rise;
         for (int k = 0; k < 3; k++) {
             was[i].a[k] = s->own[i].a[k].v;
-            was[i].u[k] = s->cfg.xsph > 0 ? s->own[i].drift[k].v : 0;
+            was[i].u[k] = o_drifts(s) ? s->own[i].drift[k].v : 0;
         }
     }
 }

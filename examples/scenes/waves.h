@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT. Copyright the sph authors. */
+/* waves.h: what scenes of water waves share: water whose columns follow a surface and a bed, and the tank around it.
+   Lengths in depths D of the water at rest, y from the flat bed, velocities in sqrt(gD), pressures in rho g D. */
+#ifndef EXAMPLES_WAVES_H
+#define EXAMPLES_WAVES_H
+
+#include "scene.h"
+#include "track.h"
+
+typedef struct wave_water {
+    double depth, gravity, sound; /* m, m/s^2; sound speed in sqrt(gD) */
+    double from, to;              /* where the water begins and ends, D */
+    uint32_t n;                   /* particles in the depth */
+    double (*surface)(const void *of, double x);                                   /* above still water */
+    void (*flow)(const void *of, double x, double y, double *v, double *pressure); /* null: at rest, hydrostatic */
+    double (*bed)(const void *of, double x);                                       /* null: flat, at 0 */
+    const void *of;
+} wave_water;
+
+/* Mass of a column over that of one of depth D at rest. Under eta the mean pressure rises by about rho g eta/2, and
+   there is so much more in the same room. */
+#define wave_pressed SPH_NAME(wave_pressed)
+double wave_pressed(double sound, double eta);
+
+/* At most so many particles are added by wave_add. */
+#define wave_count SPH_NAME(wave_count)
+double wave_count(const wave_water *w);
+
+/* Adds the water as one set: columns of particles of one mass, as many in each as its depth has spacings, so wide that
+   a particle has the room that its mass needs. Over a flat bed the last column ends at `to`; else they go on to `to` or
+   to where the water is half a spacing deep. p: parameters of the scene, for its equation of state. */
+#define wave_add SPH_NAME(wave_add)
+sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w);
+
+/* sqrt(g D), m/s: the speed of long waves */
+#define wave_long SPH_NAME(wave_long)
+double wave_long(double gravity, double depth);
+
+#endif
