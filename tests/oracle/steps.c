@@ -28,7 +28,7 @@ typedef struct beginning {
     double rise;
     double root[2]; /* damage half a step and a step later */
     bool turned[3], mirrored[3]; /* by a mirror since: vectors; tensors too */
-    double energy;
+    double energy, unslowed; /* J; before the first half of a step's damping by a rate */
 } beginning;
 static beginning *was;
 static double last;
@@ -195,11 +195,13 @@ static void forget_the_gone(o_scene *s)
     s->n = n;
 }
 
+static bool on_the_way; /* of a whole step: who leaves then takes along what damping would have taken before */
 static void leave(o_scene *s, o_particle *p, const beginning *b)
 {
     p->gone = true;
     s->left++;
-    o_plus(&s->carried_off, b->energy);
+    o_plus(&s->carried_off, on_the_way ? b->unslowed : b->energy);
+    s->slowed.v -= on_the_way ? b->unslowed - b->energy : 0;
 }
 
 static void pass_faces(o_scene *s)
@@ -288,7 +290,9 @@ static void go(o_scene *s, double drift, double bend, double kick, double rate)
             for (int l = 0; l < 3; l++)
                 p->dev[k][l] = b->dev[k][l] + rate * b->dev_rate[k][l];
     }
+    on_the_way = s->cfg.integrator != SPH_RUNGE_KUTTA && s->cfg.integrator != SPH_RUNGE_KUTTA_MOMENTUM;
     pass_faces(s);
+    on_the_way = false;
     restrain(s);
 }
 
@@ -462,6 +466,8 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
 void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
 {
     const uint32_t by = s->cfg.integrator;
+    for (uint32_t i = 0; i < s->n; i++)
+        was[i].unslowed = o_is_body(s, &s->own[i]) ? o_energy_of(s, &s->own[i]) : 0;
     o_slow(s, dt);
     remember_state(s);
     foresee_damage(s, dt, flaws_of);
