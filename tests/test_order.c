@@ -200,10 +200,10 @@ static double orders(const scene *s, uint32_t integrator)
 {
     static result r[LEVELS];
     /* what yields turns quickly: in the fewest steps Runge-Kutta's errors of third order show */
-    const bool finer = integrator == SPH_PREDICTOR_CORRECTOR || s->hardening > 0;
+    const uint32_t finer = s->hardening > 0 ? 4 : integrator == SPH_PREDICTOR_CORRECTOR ? 2 : 1;
     double worst = 9;
     for (int k = 0; k < LEVELS; k++)
-        run(s, integrator, (finer ? 2 : 1) * STEPS << k, &r[k]);
+        run(s, integrator, finer * STEPS << k, &r[k]);
     print_message("%-40s %-20s", s->name, names[integrator]);
     for (int f = 0; f < FIELDS; f++) {
         if ((f == STRESS && !s->solid) || (f == PLASTIC && s->hardening <= 0) || (f == DAMAGE && !s->damage))

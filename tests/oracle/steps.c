@@ -30,7 +30,7 @@ typedef struct beginning {
     double rise;
     double root[2]; /* damage half a step and a step later */
     bool turned[3], mirrored[3]; /* by a mirror since: vectors; tensors too */
-    double energy;
+    double energy; /* J */
 } beginning;
 static beginning *was;
 static double last;
