@@ -49,7 +49,7 @@
     ONE(edge_line, sph_edge_line, c->max_particles, sph_has_edges(c), "lines of edges")                               \
     MANY(layer, sph_real, SPH_NL, SPH_ROOM(c), sph_is_matched(c), "stress of the matched layer")                      \
     ONE(absorbing, sph_real, SPH_ROOM(c), sph_has_edges(c), "power that edges take")                                  \
-    ONE(let_out, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_has_edges(c), "absorbed energy, of chunks")        \
+    ONE(let_out, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_has_edges(c), "absorbed energy, of chunks")      \
     /* SPH_PARTIALS of each chunk */                                                                                  \
     ONE(partial, double, (size_t)SPH_PARTIALS * (c->max_particles / SPH_LOCAL_CHUNK + 1), sph_keeps_books(c),         \
         "partial sums for the books")

@@ -46,7 +46,7 @@ sph_status sph_check_edges(const sph_config *c, sph_report *r)
     if (!sph_has_solids(c))
         return sph_refuse(r, "edge", "SPH_NO_EDGE in scenes without solids", c->edge);
     if (c->solid > SPH_TOTAL || sph_resists_hourglass(c))
-        return sph_refuse(r, "edge", "SPH_NO_EDGE in stabilised and normalised forms and with hourglass control", c->edge);
+        return sph_refuse(r, "edge", "SPH_NO_EDGE in stabilised, normalised forms and with hourglass control", c->edge);
     if (!SPH_IS(c->integrator, KICK_DRIFT_KICK))
         return sph_refuse(r, "integrator", "SPH_KICK_DRIFT_KICK with edges that let waves out", c->integrator);
     if (c->edge_width > 0 && c->edge > SPH_EDGE_VISCOUS)

@@ -198,8 +198,11 @@ typedef struct form_home {
 } form_home;
 SPH_INLINE void spread_form(at_home *o, form_home *form, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
-    if (sph_stabilised(o->c) && sph_takes_forces(o->c)) {
+    if (SPH_HAS_STABILISED) /* places, whether the scene has them or not */
         o->stabilised = sph_stabilised_of(sim, t);
+    if (SPH_HAS_HOURGLASS)
+        o->deformed = (const void *)sph_near_columns_of(sim, t, SPH_COLUMN_deform);
+    if (sph_stabilised(o->c) && sph_takes_forces(o->c)) {
         form->means = sph_spread_stabilised(sim, t, h);
         o->means = &form->means;
     }
@@ -208,7 +211,6 @@ SPH_INLINE void spread_form(at_home *o, form_home *form, const sph_sim *sim, sph
         o->normal = &form->normal;
     }
     if (SPH_HAS_HOURGLASS && o->c->hourglass) {
-        o->deformed = (const void *)sph_near_columns_of(sim, t, SPH_COLUMN_deform);
         form->deform = sph_spread_deform(sim, t, h);
         o->deform = &form->deform;
     }

@@ -85,6 +85,8 @@ SPH_INLINE void sph_sum_listed(const sph_sim *sim, sph_thread *t, const sph_tile
 {
     uint8_t list[SPH_TILE / SPH_LANES + 1];
     const vreal reach2 = v_set(sim->fac.reach2);
+    if (SPH_HAS_SIDES && tile == &t->ghosts && sim->sided && !sph_is_acted_on(sim, t, h))
+        return;
     for (uint32_t from = 0; from < SPH_LANES; from += SPH_W) {
         const uint32_t found = sph_list_vectors(t, tile, h, from, reach2, list);
         vreal s[SPH_SUMS];

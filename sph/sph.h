@@ -38,7 +38,7 @@ typedef double sph_real;
 typedef float sph_real;
 #endif
 
-/* 1: no solids; 2: no sponges; 3: before `rise`, with fewer books; 4: before `lag`; 5: before flows, energies, damper */
+/* 1: no solids; 2: no sponges; 3: before `rise`, with fewer books; 4: before `lag`; 5: before flows, energies */
 #define SPH_VERSION 6u
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
@@ -269,7 +269,7 @@ enum { SPH_OPEN, SPH_PERIODIC, SPH_SYMMETRY, SPH_MIRROR_NO_SLIP, SPH_FACES };
    energy, needs no memory, and reflects 3 % of waves at right angles, more the flatter they come in. VISCOUS: the same
    on the outermost particles alone (Powell 2012 eq 2.75). edge_width > 0: a matched layer of that thickness before such
    an edge, along axes, which reflects below 1 % of P waves to 30 degrees at 10 spacings, 1.4 % at 60. P, M, H: Powell
-   2012 eqs 2.42, 2.45, 2.33 in place of the momentum equation in edge_layers layers; as printed too; they may grow without
+   2012 eqs 2.42, 2.45, 2.33 instead of the momentum equation in edge_layers layers; as printed too; may grow without
    bound. What the edges take is `absorbed` in sph_totals, with or without books; by P, M, H and matched layers to the
    first order in dt. The stress that stands when the edges are found is held, so static loads do not creep.
    SPH_ARENA_BYTES: or in SPH_USE_EDGES. */

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT. Copyright the sph authors.
-"""validate_edges.py: runs Powell's cases (2012): edges that let elastic waves out, forms that hold in tension; against closed
-forms, finite elements and his figures.
+"""validate_edges.py: runs Powell's cases (2012), edges that let elastic waves out and forms that hold in tension, and
+holds them against closed forms, finite elements and his figures.
 
 usage: validate_edges.py [--quick] [--jobs N] [--only WORD] [--keep] [--tool build/sph]
 Writes build/validate_edges.csv (name,value,unit,target,ok) and prints the same as a table; validation.py says more.

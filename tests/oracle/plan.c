@@ -435,7 +435,8 @@ void plan_draw(plan *p, uint64_t seed)
     if (p->cfg.solid >= SPH_NORMALISED) /* forces and rates of near-singular sums make rounding errors grow */
         p->steps = (uint32_t)o_min(p->steps, 4);
     p->cfg.hourglass = p->cfg.solid == SPH_TOTAL && chance(0.4) ? range(0.01, 1) : 0;
-    if (p->cfg.solid != SPH_NO_SOLID && p->cfg.solid <= SPH_TOTAL && chance(0.25)) { /* what edges take is no power of the books */
+    /* what edges take is no power of the books */
+    if (p->cfg.solid != SPH_NO_SOLID && p->cfg.solid <= SPH_TOTAL && chance(0.25)) {
         p->cfg.edge = SPH_EDGE_P + pick(SPH_EDGES - SPH_EDGE_P);
         p->cfg.edge = SPH_DIM != 2 && p->cfg.edge == SPH_EDGE_M_PRINTED ? SPH_EDGE_M : p->cfg.edge;
         p->cfg.integrator = SPH_KICK_DRIFT_KICK;
