@@ -299,7 +299,11 @@ static list runge_kutta = {BEGIN,              SORT, DENSITIES, FORCES, &pass_se
 enum { ALL_IN = SPH_WITH_FLOW && SPH_WITH_DAMPER && SPH_WITH_DAMPING_RATE && SPH_HAS_XSPH_VELOCITY };
 _Static_assert(!ALL_IN || sizeof runge_kutta / sizeof *runge_kutta <= SPH_MAX_PROGRAM, "SPH_MAX_PROGRAM: too small");
 enum { SUMMING = sizeof((const sph_pass *const[]){SUM_AGAIN}) / sizeof(const sph_pass *) };
-_Static_assert(sizeof runge_kutta / sizeof *runge_kutta <= SPH_MAX_PROGRAM, "room for the longest list");
+#define ROOM_FOR(list, knob) _Static_assert(!(knob) || sizeof(list) / sizeof *(list) <= SPH_MAX_PROGRAM, #list)
+ROOM_FOR(predictor_corrector, SPH_WITH_PREDICTOR_CORRECTOR);
+ROOM_FOR(kick_drift_kick, SPH_HAS_RATES_FIRST);
+ROOM_FOR(leap_frog, SPH_HAS_RATES_FIRST);
+ROOM_FOR(runge_kutta, SPH_HAS_RUNGE_KUTTA);
 
 /* ---- the table ---- */
 

@@ -168,10 +168,8 @@ typedef struct sph_stage {
 struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
-/* passes of the longest list (integrators.c) */
-#define SPH_MAX_PROGRAM                                                                                     \
-    (48u + (SPH_WITH_FLOW ? 8u : 0u) + (SPH_HAS_STABILISED || SPH_HAS_NORMALISED || SPH_HAS_HOURGLASS ? 24u : 0u) + \
-     (SPH_WITH_DAMPER || SPH_WITH_DAMPING_RATE || SPH_HAS_XSPH_VELOCITY ? 16u : 0u))
+/* room for the passes of the longest list that is in (integrators.c) */
+#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 96u : SPH_HAS_RATES_FIRST ? 64u : 48u)
 
 struct sph_sim {
     sph_config cfg;
