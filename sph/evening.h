@@ -6,7 +6,7 @@
 /* the option; how a line is made: options.h */
 #define SPH_EVENING_OPTIONS(O, P, A)                                                                                  \
     P(A, xsph_velocity, BOOL, false, 0, 1, SPH_HAS_XSPH_VELOCITY, "false, or true with xsph, without xsph_strain",    \
-      FIXED, "-", "XSPH: what is smoothed is the velocity itself: no yes", "xsph_velocity", "-", 0, 1, USUAL)
+      FIXED, "-", "XSPH smooths the velocity itself: no yes", "xsph_velocity", "-", 0, 1, USUAL)
 
 #ifdef SPH_H
 struct sph_config;

@@ -2,15 +2,8 @@
 /* gradient.c: corrected gradients of fluids (gradient.h): the sum M, its inverse, and what a particle brings to a
    tile.
 
-   Beside a surface only a share s of the correction is taken: B = s E^-1 + (1 - s) I, E = M/rho, with s rising from 0
-   at det E 0.3 to 1 at 0.6. On a lattice the outermost row of water has det E 0.5, a corner of it 0.25. The whole
-   correction pushes harder the fewer neighbours a particle has: rows below a surface leave their places up and down in
-   turn, the water is stirred and sinks, and what it falls by goes into the stirring: still water in a tank is lost
-   after 50 sqrt(D/g) (tests/test_gradient.c). What conserves stays so: any B will do for that. Where neighbours do not
-   span space s is 0.
-
    Array: N (Bonet & Lok) or B (renormalised), symmetric, SPH_DIM (SPH_DIM + 1)/2 reals. Cost: a sweep before the
-   forces. */
+   forces. Where the neighbours do not span space (sph_invert_sum, of E = M/rho) the plain gradient is taken. */
 #include "gradient.h"
 #include "arithmetic.h"
 
@@ -63,20 +56,6 @@ static void gradient_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uin
         sph_gather_by(sim->cfg.kernel, sim, t, tile, homes, SPH_SUM_MASK(0, SPH_NT), gradient_pair, &weak);
 }
 
-#define NO_SHARE ((sph_real)0.3)
-#define WHOLE_SHARE ((sph_real)0.6)
-/* the share s of the correction that is taken, by det E, and E^-1 unless that is 0 */
-static sph_real take_share(const sph_real (*e)[SPH_DIM], sph_real (*inv)[SPH_DIM])
-{
-    sph_real det = 0;
-    if (!sph_invert(e, inv, NO_SHARE))
-        return 0;
-    for (int k = 0; k < SPH_DIM; k++)
-        det += e[0][k] * sph_cofactor(e, 0, k);
-    const sph_real s = (det - NO_SHARE) / (WHOLE_SHARE - NO_SHARE);
-    return s < 1 ? s : 1;
-}
-
 static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const bool weak = sph_weak_scheme(sim->cfg.scheme), bonet = SPH_IS(sim->cfg.gradient, BONET_LOK);
@@ -85,12 +64,10 @@ static void gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = k; l < SPH_DIM; l++)
             e[k][l] = e[l][k] = -v_fold(t->sum[sph_sym[k][l]][h]) * sim->fac.slope * scale;
-    const sph_real share = take_share((const sph_real(*)[SPH_DIM])e, inv);
+    const bool fine = sph_invert_sum((const sph_real(*)[SPH_DIM])e, inv, 1);
     for (int k = 0; k < SPH_DIM; k++)
-        for (int l = k; l < SPH_DIM; l++) {
-            const sph_real whole = share > 0 ? share * inv[k][l] : 0;
-            sim->gradient[sph_sym[k][l]][t->home_at[h]] = (whole + (k == l ? 1 - share : 0)) * back;
-        }
+        for (int l = k; l < SPH_DIM; l++)
+            sim->gradient[sph_sym[k][l]][t->home_at[h]] = (fine ? inv[k][l] : k == l ? 1 : 0) * back;
 }
 
 static void gradient_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)

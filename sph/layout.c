@@ -90,8 +90,9 @@ static void lay_out_arrays(const sph_config *c, const sph_grid *g, layout *l)
 static void lay_out_state(const sph_config *c, uint32_t buffer, layout *l)
 {
     const size_t first = offsetof(sph_sim, buf) + buffer * sizeof(sph_buffer);
-    uint32_t wanted = 0, bit = 0; /* a bit for each field */
-#define WANTED(name, type, comps, unit, when, way) wanted |= (uint32_t)(when) << bit++;
+    uint64_t wanted = 0; /* a bit for each field */
+    uint32_t bit = 0;
+#define WANTED(name, type, comps, unit, when, way) wanted |= (uint64_t)(when) << bit++;
     SPH_STATE_FIELDS(WANTED)
 #undef WANTED
     for (uint32_t f = 0; f < bit; f++)

@@ -215,8 +215,8 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
    density, and the pressure force that does the same work (Bonet & Lok 1999; schemes STANDARD and WEAK); momentum,
    angular momentum and energy stay. RENORMALISED: (B_i + B_j)/2 x_ij g in continuity, pressure and artificial
    viscosity (Wickramarachchi 2009 eqs 4.8-4.20); momentum and energy stay. Both cost a sweep and SPH_DIM (SPH_DIM +
-   1)/2 reals a particle; beside a surface a share of the correction is taken, where neighbours do not span space none
-   (gradient.c). */
+   1)/2 reals a particle; where neighbours do not span space the plain gradient is taken. Still water without viscosity
+   is stirred beside its surface (README, findings). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* How the density is made anew every shepard_every steps, or each time that filter_period (s) has passed (not beside
@@ -422,7 +422,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_EDGE_BYTES_ /* marks, lines, places; memory of the matched layer; its stress, what is absorbed */ \
     (((5u + 6u) * SPH_DIM + SPH_EDGE_TENSOR_ + 1u) * SPH_REAL_ + 48u +                                       \
      (5u * SPH_DIM * SPH_DIM + 4u * SPH_EDGE_TENSOR_ + 1u) * SPH_REAL_)
-#define SPH_FIXED_BYTES 24576u /* simulation header, sets, groups, alignment of at most 48 arrays */
+#define SPH_FIXED_BYTES 25088u /* simulation header, sets, groups, alignment of at most 48 arrays */
 /* sums of a velocity gradient, or of shifting */
 #define SPH_TENSOR_SUMS_                                                                                    \
     SPH_MAX_(SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0u,                                                       \

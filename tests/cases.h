@@ -197,7 +197,8 @@ static const bits_case bits_cases[] = {
     {"xsph_velocity_solid", CASE_SOLID, .solid = SPH_CORRECTED, .xsph = true, .evened = true, .held = true,
      .integrator = SPH_KICK_DRIFT_KICK},
     /* polylines, motions by programme and by spline */
-    {"polyline", CASE_BASE, .bed = true, .books = true},
+    {"polyline", .kernel = SPH_WENDLAND_C4, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI, .bed = true,
+     .books = true},
     {"polyline_ghost", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .bed = true,
      .compressible = true, .slip_less = true, .moving = true, .motion = CASE_PROGRAMME, .books = true},
     {"polyline_force", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_KERNEL_FORCE,

@@ -112,12 +112,12 @@ static UNUSED sph_config random_config(uint32_t number)
         scene_fluids(&c);
     scene_box(&c);
     if (c.solid == SPH_NO_SOLID && c.integrator < SPH_RUNGE_KUTTA && c.density == SPH_CONTINUITY &&
-        c.scheme <= SPH_DIRECT)
+        c.scheme <= SPH_DIRECT && !c.energy)
         c.damper = number % 3 ? 0 : 0.2;
     c.damping_rate = number % 5 == 1 ? 20 : 0;
     c.xsph_velocity = c.xsph > 0 && !c.xsph_strain && number % 4 == 2;
     c.face_quadrature = SPH_DIM > 1 && c.solid >= SPH_CORRECTED && number % 2;
-    if (number % 3 == 1 && c.density == SPH_CONTINUITY && c.face[0][0] == SPH_OPEN)
+    if (number % 3 == 1 && c.density == SPH_CONTINUITY && c.face[0][0] == SPH_OPEN && !c.energy)
         c.max_flows = 2;
     c.max_particles = SPH_DIM == 1 ? 200 : SPH_DIM == 2 ? 900 : 3500;
     return c;

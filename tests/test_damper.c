@@ -222,7 +222,7 @@ static sph_sim *cloud(const sph_config *c)
     uint32_t set;
     sph_sim *sim = new_sim(c);
     must(sim, sph_add_fluid(sim, NULL, &set));
-    random_cloud(sim, set, SPH_DIM == 1 ? 60 : SPH_DIM == 2 ? 12 : 6, DX, 0.2, 1, 7);
+    random_cloud(sim, set, SPH_DIM == 1 ? 20 : SPH_DIM == 2 ? 12 : 6, DX, 0.2, 1, 7);
     return sim;
 }
 

@@ -5,8 +5,7 @@
      fluids   the same with K = x_ij: E = M/rho (weak: M); Bonet & Lok N = M^-1; renormalised B = E^-1, and
               (B_i + B_j)/2 x_ij for x_ij (Wickramarachchi 2009 eqs 4.8-4.20)
    Where neighbours do not span space the plain gradient is taken: E = I. That is where det E is below a thousandth of
-   that of a ball with the same norm, or of (0.6/2^DIM)^DIM, six tenths of a block's corner on every axis. Of fluids a
-   share (det E - 0.3)/0.3 of what E^-1 differs from I by is taken, within 0 and 1. */
+   that of a ball with the same norm, or of (0.6/2^DIM)^DIM, six tenths of a block's corner on every axis. */
 #include "oracle.h"
 
 static double determinant(const double (*m)[3])
@@ -105,19 +104,13 @@ static void correct(o_scene *s, o_particle *i)
     if (wants) {
         const double terms = sum_of(s, i, e), det = determinant((const double(*)[3])e);
         const double mean = norm((const double(*)[3])e) / sqrt(SPH_DIM), ball = 1e-3 * pow(mean, SPH_DIM);
-        const double least = solids ? pow(0.6 * pow(2, -SPH_DIM), SPH_DIM) : 0.3;
+        const double least = pow(0.6 * pow(2, -SPH_DIM), SPH_DIM);
         o_close(s, "a gradient's matrix that is nearly singular", det, o_max(ball, least),
                 0.1 * terms * pow(mean, SPH_DIM - 1));
         if (det > ball && det > least) {
             invert((const double(*)[3])e, inv);
-            const double size = norm((const double(*)[3])inv), share = solids ? 1 : o_min(1, (det - 0.3) / 0.3);
+            const double size = norm((const double(*)[3])inv);
             scale = size * (1 + size * terms);
-            if (share < 1) /* the determinant's own errors come in */
-                scale += size * terms * pow(mean, SPH_DIM - 1) / 0.3;
-            for (int k = 0; k < SPH_DIM * SPH_DIM; k++) {
-                double *const b = &inv[k / SPH_DIM][k % SPH_DIM];
-                *b = share * *b + (k / SPH_DIM == k % SPH_DIM ? 1 - share : 0);
-            }
         }
     }
     const double back = n_form && !o_is_weak(s) ? 1 / i->rho : 1;
