@@ -140,13 +140,14 @@ static void mark_near(const sph_sim *sim, const sph_set *s, sph_span span, uint8
         for (; in; in &= in - 1) /* few */
             marks[i - span.first + (uint32_t)__builtin_ctz(in)] = 1;
     }
-    for (uint32_t i = span.first; !QUICK && i < span.last; i++) {
-        int in = 1;
-        SPH_UNROLL
-        for (int k = 0; k < SPH_DIM; k++)
-            in &= (pos[k][i] >= lo[k]) & (pos[k][i] <= hi[k]);
-        marks[i - span.first] |= (uint8_t)in;
-    }
+    if (!QUICK)
+        for (uint32_t i = span.first; i < span.last; i++) {
+            int in = 1;
+            SPH_UNROLL
+            for (int k = 0; k < SPH_DIM; k++)
+                in &= (pos[k][i] >= lo[k]) & (pos[k][i] <= hi[k]);
+            marks[i - span.first] |= (uint8_t)in;
+        }
 }
 
 void sph_cross_walls(sph_sim *sim, sph_span s, sph_thread *t, double *books)

@@ -84,9 +84,11 @@ static void modify(const sph_real (*l)[SPH_DIM], const sph_real *n, const sph_re
             acc[k] -= c * ((trace - nn) * n[k] + nl[k] - nn * n[k]);
         return;
     }
-    const sph_real t[2] = {n[SPH_DIM > 1], -n[0]}, across = nl[0] * t[0] + nl[SPH_DIM > 1] * t[1]; /* Lt.n */
-    for (uint32_t k = 0; k < SPH_DIM && SPH_DIM == 2; k++)
-        acc[k] += c * (across * n[k] - (trace - nn) * t[k]);
+    if (SPH_DIM == 2) {
+        const sph_real t[2] = {n[SPH_DIM > 1], -n[0]}, across = nl[0] * t[0] + nl[SPH_DIM > 1] * t[1]; /* Lt.n */
+        acc[0] += c * (across * n[0] - (trace - nn) * t[0]);
+        acc[SPH_DIM > 1] += c * (across * n[SPH_DIM > 1] - (trace - nn) * t[1]);
+    }
 }
 
 /* the acceleration of particle i of a layer, in place of a; v: its velocity */
@@ -218,7 +220,7 @@ static void layer_stress(const sph_sim *sim, uint32_t i, const sph_edge_mark *m,
     const sph_buffer *b = &sim->buf[sim->dst];
     const double alpha = sph_layer_shift(sim, &sim->set[b->set[0][i]]);
     const double left = sph_exp(-alpha * dt), gain = (1 - left) / alpha;
-    double stress[6], mean[SPH_NT], twice[SPH_NT], sum, product;
+    double stress[6], mean[SPH_NT] = {0}, twice[SPH_NT] = {0}, sum, product;
     sph_stress_of(sim, b, i, stress);
     for (uint32_t k = 0; k < SPH_DIM; k++)
         for (uint32_t l = k; l < SPH_DIM; l++) {
@@ -384,7 +386,7 @@ static void line_chunk(sph_sim *sim, uint32_t axis, uint32_t chunk, sph_thread *
     double sum = 0;
     for (uint32_t n = first; n < last; n++) {
         const sph_edge_line *l = &sim->edge_line[sim->edge_from[axis] + n];
-        uint32_t at[SPH_EDGE_LINE];
+        uint32_t at[SPH_EDGE_LINE] = {0};
         if (find_line(sim, l, at))
             sum += answer_line(sim, l, at);
     }

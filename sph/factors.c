@@ -152,7 +152,7 @@ static void make_levels(const sph_config *c, sph_factors *f)
 {
     const double dx = c->spacing, reach = sph_kernel_support(c->kernel) * c->smoothing_length / dx;
     const int32_t most = (int32_t)reach + 1, second = SPH_DIM > 1 ? most : 0, third = SPH_DIM == 3 ? most : 0;
-    double layer[32], full = 0, volume = dx;
+    double layer[32] = {0}, full = 0, volume = dx;
     for (int32_t k = 1; k < SPH_DIM; k++)
         volume *= dx;
     for (int32_t m = 0; m <= most; m++) {

@@ -27,7 +27,8 @@ void sph_load_deform(const sph_candidates *r, sph_real *to, uint32_t row)
     for (uint32_t j = 0; j < r->n; j++) {
         const uint32_t i = r->first + j;
         for (uint32_t k = 0; k < SPH_NL; k++) {
-            const sph_real turn = (sph_real)(r->im->sign[k / SPH_DIM] * r->im->sign[k % SPH_DIM]);
+            const uint32_t row_axis = k / SPH_DIM, axis = k % SPH_DIM;
+            const sph_real turn = (sph_real)(r->im->sign[row_axis] * r->im->sign[axis]);
             to[k * row + j] = solid ? r->sim->deform[k][i] * turn : 0;
         }
         to[SPH_NL * row + j] = solid ? r->sim->deform[SPH_NL][i] * stiff * sph_whole_of(r->b, i) : 0;

@@ -361,11 +361,12 @@ SPH_INLINE bool sph_is_compressible(const sph_set *s) { return SPH_WITH_WALL_GHO
 SPH_INLINE void sph_frame_of(const sph_set *s, double (*axis)[SPH_DIM])
 {
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        const uint32_t a = (k + 1) % SPH_DIM, b = (k + 2) % SPH_DIM, last = SPH_DIM - 1;
+        const uint32_t last = SPH_DIM - 1;
         axis[0][k] = s->normal[k];
         if (SPH_DIM == 2)
             axis[last][k] = k ? s->normal[0] : -s->normal[last];
         if (SPH_DIM == 3) {
+            const uint32_t a = (k + 1) % SPH_DIM, b = (k + 2) % SPH_DIM;
             axis[SPH_DIM > 1][k] = s->tangent[k];
             axis[last][k] = s->normal[a] * s->tangent[b] - s->normal[b] * s->tangent[a];
         }

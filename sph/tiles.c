@@ -126,31 +126,31 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
 /* Tait's water in a standard scheme, solids with the linear equation of state, or rates in a standard scheme, in the
    middle of a step; no image: the same text with the choices as constants; a line adds a path */
 #define SPH_FAST_LOADS(X)                                                                                          \
-    X(plain, TAIT, false, false, true, false, COPIED)                                                              \
-    X(plain_homes, TAIT, false, false, true, false, COPIED_HOMES)                                                  \
-    X(floor, TAIT, true, false, true, false, COPIED)                                                               \
-    X(floor_homes, TAIT, true, false, true, false, COPIED_HOMES)                                                   \
-    X(diffusive, TAIT, true, true, true, false, COPIED)                                                            \
-    X(diffusive_homes, TAIT, true, true, true, false, COPIED_HOMES)                                                \
-    X(wall, TAIT, false, false, true, true, COPIED)                                                                \
-    X(wall_homes, TAIT, false, false, true, true, COPIED_HOMES)                                                    \
-    X(wall_floor, TAIT, true, false, true, true, COPIED)                                                           \
-    X(wall_floor_homes, TAIT, true, false, true, true, COPIED_HOMES)                                               \
-    X(wall_diffusive, TAIT, true, true, true, true, COPIED)                                                        \
-    X(linear, LINEAR, false, false, true, false, COPIED)                                                           \
-    X(linear_homes, LINEAR, false, false, true, false, COPIED_HOMES)                                               \
-    X(rates, TAIT, false, false, false, false, COPIED)                                                             \
-    X(rates_homes, TAIT, false, false, false, false, COPIED_HOMES)                                                 \
-    X(rates_diffusive, TAIT, false, true, false, false, COPIED)                                                    \
-    X(rates_diffusive_homes, TAIT, false, true, false, false, COPIED_HOMES)                                        \
-    X(rates_wall, TAIT, false, false, false, true, COPIED)                                                         \
-    X(rates_wall_diffusive, TAIT, false, true, false, true, COPIED)
-#define SPH_FAST_FN(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                           \
+    X(plain, TAIT, false, false, true, false, false)                                                               \
+    X(plain_homes, TAIT, false, false, true, false, true)                                                          \
+    X(floor, TAIT, true, false, true, false, false)                                                                \
+    X(floor_homes, TAIT, true, false, true, false, true)                                                           \
+    X(diffusive, TAIT, true, true, true, false, false)                                                             \
+    X(diffusive_homes, TAIT, true, true, true, false, true)                                                        \
+    X(wall, TAIT, false, false, true, true, false)                                                                 \
+    X(wall_homes, TAIT, false, false, true, true, true)                                                            \
+    X(wall_floor, TAIT, true, false, true, true, false)                                                            \
+    X(wall_floor_homes, TAIT, true, false, true, true, true)                                                       \
+    X(wall_diffusive, TAIT, true, true, true, true, false)                                                         \
+    X(linear, LINEAR, false, false, true, false, false)                                                            \
+    X(linear_homes, LINEAR, false, false, true, false, true)                                                       \
+    X(rates, TAIT, false, false, false, false, false)                                                              \
+    X(rates_homes, TAIT, false, false, false, false, true)                                                         \
+    X(rates_diffusive, TAIT, false, true, false, false, false)                                                     \
+    X(rates_diffusive_homes, TAIT, false, true, false, false, true)                                                \
+    X(rates_wall, TAIT, false, false, false, true, false)                                                          \
+    X(rates_wall_diffusive, TAIT, false, true, false, true, false)
+#define SPH_FAST_FN(name, eos_, floor_, inv_rho_, press_, wall_, homes_)                                           \
     SPH_APART void load_##name(const sph_candidates *r, sph_tile *t, sph_real least)                               \
     {                                                                                                              \
         const tile_choice own = {SPH_##eos_, true,  floor_, inv_rho_, press_, !(press_),                           \
                                  wall_,      false, false,  false,    false};                                      \
-        load_columns(r, t, least, copied, own);                                                                    \
+        load_columns(r, t, least, (homes_) ? COPIED_HOMES : COPIED, own);                                          \
     }
 SPH_FAST_LOADS(SPH_FAST_FN)
 #undef SPH_FAST_FN
@@ -160,8 +160,6 @@ SPH_FAST_LOADS(SPH_FAST_FN)
     ((uint32_t)(eos) << 5 | (uint32_t)(floor) << 4 | (uint32_t)(inv_rho) << 3 | (uint32_t)(press) << 2 |           \
      (uint32_t)(wall) << 1 | (uint32_t)(homes))
 #define NO_KEY 0xffffffffu
-#define FOR_COPIED 0
-#define FOR_COPIED_HOMES 1
 #define LEAST_DENSITY ((sph_real)0.5) /* of that at rest */
 
 void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool homes)
@@ -179,8 +177,8 @@ void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool ho
                        (!sph_normalises(c) || sph_sums_forces(r->sim));
     const uint32_t key = LOAD_KEY(eos, floor, inv_rho, press, wall, homes);
     switch (usual ? key : NO_KEY) {
-#define SPH_FAST_CASE(name, eos_, floor_, inv_rho_, press_, wall_, copied)                                         \
-    case LOAD_KEY(SPH_##eos_, floor_, inv_rho_, press_, wall_, FOR_##copied):                                      \
+#define SPH_FAST_CASE(name, eos_, floor_, inv_rho_, press_, wall_, homes_)                                         \
+    case LOAD_KEY(SPH_##eos_, floor_, inv_rho_, press_, wall_, homes_):                                            \
         load_##name(r, t, least);                                                                                  \
         return;
         SPH_FAST_LOADS(SPH_FAST_CASE)

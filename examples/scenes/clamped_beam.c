@@ -44,7 +44,8 @@ static sph_status build(sph_sim *sim, const double *p)
         m.held = held ? 3 : 0;
         st = sph_add_solid(sim, &m, &set, NULL);
         for (uint32_t i = 0; !st && i < columns_of(p) * (uint32_t)p[N]; i++) {
-            const double x[2] = {(i / (uint32_t)p[N] + 0.5) * spacing(p) - 0.5 * LENGTH,
+            const uint32_t column = i / (uint32_t)p[N];
+            const double x[2] = {(column + 0.5) * spacing(p) - 0.5 * LENGTH,
                                  (i % (uint32_t)p[N] + 0.5) * spacing(p)};
             const double v[2] = {0, SCENE_ABS(x[0]) < STRUCK ? -p[SPEED] : 0};
             if ((SCENE_ABS(x[0]) > 0.5 * LENGTH - HELD) == (held != 0))

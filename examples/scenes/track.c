@@ -199,10 +199,11 @@ track_face track_steepest(const sph_sim *sim, const track_tank *tank, track_cres
     cover_grid(sim, tank, &g);
     for (int r = 0; r < g.rows; r++)
         far[r] = reach_of_row(&g, r);
+    const int half = LEAN_ROWS / 2;
     for (int r = 0; r + LEAN_ROWS < g.rows && far[r + LEAN_ROWS] >= 0; r++) {
         const double lean = (far[r + LEAN_ROWS] - far[r]) / (LEAN_ROWS * step);
         if (far[r] >= 0 && (face.lean == 0 || lean > face.lean))
-            face = (track_face){lean, g.at + g.ahead * far[r + LEAN_ROWS / 2], g.low + (r + LEAN_ROWS / 2) * step};
+            face = (track_face){lean, g.at + g.ahead * far[r + half], g.low + (r + half) * step};
     }
     return face;
 }

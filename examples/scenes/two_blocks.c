@@ -30,8 +30,9 @@ static uint32_t columns_of(const double *p) { return (uint32_t)(width(p) / spaci
 static void place(const double *p, uint32_t id, double *x)
 {
     const uint32_t n = columns_of(p);
+    const uint32_t row = id / n;
     x[0] = (id % n + 0.5) * spacing(p) - 0.5 * width(p);
-    x[1] = (id / n + 0.5) * spacing(p) - 0.5 * height(p);
+    x[1] = (row + 0.5) * spacing(p) - 0.5 * height(p);
 }
 
 static void configure(const double *p, sph_config *c)
