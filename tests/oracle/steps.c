@@ -427,6 +427,7 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
 {
     const double begun = s->time;
     pass_faces(s); /* who was put back outside of them */
+    tell(s, begun, 0); /* and what is held has its own velocity again, not that of the wall it was put back off */
     filter(s, begun, begun, false);
     find_density(s, number);
     o_forces(s);
