@@ -219,6 +219,7 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
     s->support = o_weight_support(s->cfg.kernel) * s->cfg.smoothing_length;
     s->time = sim->now.time;
     s->undecided = NULL;
+    s->shaken = false;
     s->sets = sim->sets;
     for (uint32_t k = 0; k < s->sets; k++)
         read_set(sim, k, &s->set[k]);
