@@ -494,7 +494,8 @@ void plan_print(const plan *p)
                p->wall[k].motion.v[0]);
     for (uint32_t k = 0; k < p->walls; k++)
         for (int r = 0; p->wall[k].by_table && r < PLAN_ROWS; r++)
-            printf("  wall %u: table of axis %u: t %.17g x %.9g\n", k, p->wall[k].axis, p->wall[k].t[r], p->wall[k].x[r]);
+            printf("  wall %u: table of axis %u: t %.17g x %.9g\n", k, p->wall[k].axis, p->wall[k].t[r],
+                   p->wall[k].x[r]);
     for (uint32_t k = 0; k < p->solids; k++)
         for (int a = 0; p->solid[k].held && a < SPH_DIM; a++)
             printf("  solid %u: held, axis %d: v %.9g a %.9g\n", k, a, p->held[k].v[a], p->held[k].a[a]);
