@@ -411,9 +411,6 @@ void plan_draw(plan *p, uint64_t seed)
     draw_sets(p);
     draw_domain(p);
     draw_points(p);
-    /* the printed forms divide by a pressure that goes through 0: in many steps rounding errors grow without bound */
-    if (p->cfg.scheme == SPH_STANDARD_WICK || p->cfg.scheme == SPH_WEAK_WICK)
-        p->steps = (uint32_t)o_min(p->steps, 2);
     p->wall_d = chance(0.5) ? 0 : range(0, 0.2);
     p->cfg.filter = chance(0.5) ? SPH_SHEPARD : SPH_MLS;
     p->cfg.shepard_every = p->cfg.solid == SPH_NO_SOLID && p->cfg.density == SPH_CONTINUITY && chance(0.5) ? 1 : 0;
