@@ -266,7 +266,8 @@ static void damping_of(const sph_edge_mark *m, double *d)
 }
 
 /* damps component k of a velocity less that of what lies beyond; returns the energy that it loses, J/kg */
-static double damp(const sph_buffer *b, uint32_t i, uint32_t k, double ref, const double *d, double alpha, double dt)
+static double damp_along(const sph_buffer *b, uint32_t i, uint32_t k, double ref, const double *d, double alpha,
+                         double dt)
 {
     const double h = 0.5 * dt, c = 1 / (1 + alpha * h), was = (double)b->vel[k][i], v = was - ref;
     sph_real *z = &b->way_memory[k][i], *w = SPH_DIM > 1 ? &b->way_memory[SPH_DIM > 1 ? SPH_DIM + k : 0][i] : NULL;
@@ -304,7 +305,7 @@ static void layer_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
         damping_of(m, d);
         for (uint32_t k = 0; k < SPH_DIM && matched && d[0] > 0; k++)
             if (!(held >> k & 1))
-                lost += damp(b, i, k, (double)m->velocity[k], d, sph_layer_shift(sim, s), sim->dt);
+                lost += damp_along(b, i, k, (double)m->velocity[k], d, sph_layer_shift(sim, s), sim->dt);
         sum += s->mass * lost;
     }
     sim->let_out[chunk] = sum;

@@ -172,7 +172,7 @@ static void peel(sph_sim *sim)
 /* ---- edges along axes ---- */
 
 /* the box around all solids (m, from the domain's low corner), half a spacing outside the outermost */
-static void box_of(const sph_sim *sim, double (*box)[2])
+static void domain_of(const sph_sim *sim, double (*box)[2])
 {
     const double half = 0.5 * sim->cfg.spacing;
     bool any = false;
@@ -408,7 +408,7 @@ sph_status sph_find_edges(sph_sim *sim, const sph_edges *edges)
             m->velocity[k] = e->as_now ? sim->buf[sim->cur].vel[k][i] : (sph_real)e->velocity[k];
     }
     list_cells(sim);
-    box_of(sim, box);
+    domain_of(sim, box);
     for (uint32_t i = 0; i < sim->now.count && e->faces && !e->given; i++)
         if (is_solid(sim, i))
             mark_by_depth(sim, box, e->faces, i);
