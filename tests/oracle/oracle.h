@@ -58,6 +58,7 @@ typedef struct o_particle {
     bool gone;                 /* left, or was removed: as if it had never been */
     /* state */
     double x[3], v[3], d;      /* m, m/s, (rho - rho0)/rho0 */
+    double stood[3];           /* place without what mirrors make of it */
     double rest[3];            /* reference position (m) */
     double home[3];            /* of what moves as it is told: its place at displacement 0 */
     double dev[3][3];          /* deviatoric stress, Pa, without damage */
