@@ -114,7 +114,7 @@ static void compare_forces(const o_scene *s)
 static void compare_momentum(const o_scene *s)
 {
     const sph_config *c = &s->cfg;
-    bool alone = c->scheme != SPH_DIRECT && !o_normalises(s);
+    bool alone = c->scheme != SPH_DIRECT && !o_normalises(s) && c->edge == SPH_NO_EDGE; /* layers push */
     o_sum force[3] = {{0, 0}}, turn[3] = {{0, 0}};
     for (int k = 0; k < SPH_DIM; k++)
         alone &= c->face[k][0] == SPH_OPEN && c->face[k][1] == SPH_OPEN;
@@ -144,19 +144,29 @@ static void compare_momentum(const o_scene *s)
     }
 }
 
-/* the particle with the largest acceleration says how well the force limit is known */
-static double force_scale(const o_scene *s)
+/* The force limit as the acceleration that it stands for, which may be nearly all rounding error: how well the largest
+   of the particles is known. */
+static o_sum largest_acceleration(const o_scene *s)
 {
-    double most = 0, scale = 1;
-    for (uint32_t i = 0; i < s->n; i++) {
-        const o_particle *p = &s->own[i];
-        const double a = sqrt(p->a[0].v * p->a[0].v + p->a[1].v * p->a[1].v + p->a[2].v * p->a[2].v);
-        if (o_is_body(s, p) && a > most) {
-            most = a;
-            scale = 1 + (p->a[0].s + p->a[1].s + p->a[2].s) / a;
+    o_sum most = {0, 0};
+    for (uint32_t turn = 0; turn < 2; turn++)
+        for (uint32_t i = 0; i < s->n; i++) {
+            const o_particle *p = &s->own[i];
+            const double a = sqrt(p->a[0].v * p->a[0].v + p->a[1].v * p->a[1].v + p->a[2].v * p->a[2].v);
+            const double scale = a + p->a[0].s + p->a[1].s + p->a[2].s;
+            if (!o_is_body(s, p))
+                continue;
+            if (turn == 0)
+                most.v = o_max(most.v, a);
+            else if (a + TOLERANCE * scale >= most.v)
+                most.s = o_max(most.s, scale);
         }
-    }
-    return scale;
+    return most;
+}
+/* m/s^2 of a force limit; 0: there is none */
+static double acceleration_of(const o_scene *s, double limit)
+{
+    return limit > 0 ? s->cfg.smoothing_length * pow(s->cfg.force_factor / limit, 2) : 0;
 }
 
 static void compare_limits(const sph_sim *sim, const o_scene *s)
@@ -166,10 +176,12 @@ static void compare_limits(const sph_sim *sim, const o_scene *s)
         const char *name, *part;
         double v, scale;
     } of[] = {{"courant limit", "courant", l.courant, l.courant_scale},   {"viscous limit", "viscous", l.viscous, 1},
-              {"force limit", "force", l.force, force_scale(s)}, {"gravity limit", "gravity", l.gravity, 1},
+              {"gravity limit", "gravity", l.gravity, 1},
               {"diffusion limit", "diffusi", l.diffusion, 1}};
     for (size_t k = l.courant_undecided; k < sizeof of / sizeof *of; k++)
         check(of[k].name, SPH_NO_PARTICLE, 0, look_limit(sim, of[k].part), (o_sum){of[k].v, of[k].v * of[k].scale}, 0);
+    check("force limit", SPH_NO_PARTICLE, 0, acceleration_of(s, look_limit(sim, "force")),
+          (o_sum){acceleration_of(s, l.force), largest_acceleration(s).s}, 0);
 }
 
 static void compare_totals(const sph_sim *sim, const o_scene *s)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* condition.c: how well a scene is conditioned: its steps once more by the oracle alone, from a state in which every
-   number is disturbed by as much as a sum of the kernel may be off, some times over. What comes of that at the end, the
-   largest of all particles, is what rounding makes of each quantity: two trajectories agree no better than some times
-   it. */
+   number is disturbed by as much as a sum of the kernel may be off, some times over. Filters forget by what densities
+   were disturbed, and know what they make only to a rounding of rho0: they are disturbed by that. What comes of it at
+   the end, the largest of all particles, is what rounding makes of each quantity: two trajectories agree no better than
+   some times it. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,12 +24,18 @@ static void copy(o_scene *to, const o_scene *from)
     to->m = 0;
 }
 
-static double error(double size)
+static int sign(void)
 {
     static uint32_t state = 1;
     state = state * 1664525u + 1013904223u; /* Knuth & Lewis */
-    return (state >> 31 ? 1 : -1) * (SPH_DOUBLE ? 1e-11 : 1e-5) * fabs(size); /* compare.c, TOLERANCE */
+    return state >> 31 ? 1 : -1;
 }
+static double error(double size)
+{
+    return sign() * (SPH_DOUBLE ? 1e-11 : 1e-5) * fabs(size); /* compare.c, TOLERANCE */
+}
+
+double o_shake(const o_scene *s) { return s->shaken ? sign() * (SPH_DOUBLE ? 0x1p-52 : 0x1p-23) : 0; }
 
 static void disturb(o_scene *s)
 {
@@ -65,6 +72,7 @@ o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps,
     o_spread o = {0};
     for (int draw = 0; draw < DRAWS; draw++) {
         copy(&s, start);
+        s.shaken = true;
         disturb(&s);
         o_forces(&s);
         o_begin_steps(&s, s.n);

@@ -133,6 +133,6 @@ void o_filter_density(o_scene *s)
     }
     for (uint32_t a = 0; a < s->n; a++)
         if (o_is_body(s, &s->own[a]))
-            s->own[a].d = s->own[a].density.v;
+            s->own[a].d = s->own[a].density.v + o_shake(s);
     o_refresh(s);
 }

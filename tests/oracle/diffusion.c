@@ -17,13 +17,8 @@ void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_p
     const double sound = o_sound(set->eos, set->c0);
     double drho = j->rho - i->rho, size = i->rho + j->rho;
     for (int k = 0; k < SPH_DIM && s->cfg.diffusion == SPH_HYDROSTATIC; k++) {
-        const uint32_t low = s->cfg.face[k][0], high = s->cfg.face[k][1];
-        double x = j->x[k]; /* behind a mirror: the place that is seen in it */
-        if (j->image && x < s->cfg.lo[k] && low != SPH_PERIODIC)
-            x = 2 * s->cfg.lo[k] - x;
-        else if (j->image && x > s->cfg.hi[k] && high != SPH_PERIODIC)
-            x = 2 * s->cfg.hi[k] - x;
-        const double part = set->rho0 * s->cfg.gravity[k] * (x - i->x[k]) / (sound * sound);
+        /* of an image in a mirror the place that is seen in it: within a step it may be on either side of the plane */
+        const double part = set->rho0 * s->cfg.gravity[k] * (j->stood[k] - i->x[k]) / (sound * sound);
         drho -= part;
         size += fabs(part);
     }

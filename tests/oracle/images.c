@@ -18,6 +18,7 @@ static void behind(const o_scene *s, o_particle *p, int axis, int side)
     p->image = true;
     if (face == SPH_PERIODIC) {
         p->x[axis] += side * length;
+        p->stood[axis] += side * length;
         p->rest[axis] += side * length;
         p->origin[axis] += side * length;
         return;
@@ -77,8 +78,11 @@ static void keep(o_scene *s, const o_particle *p)
 void o_copies(o_scene *s)
 {
     s->m = 0;
-    for (uint32_t i = 0; i < s->n; i++)
+    for (uint32_t i = 0; i < s->n; i++) {
+        for (int k = 0; k < 3; k++)
+            s->own[i].stood[k] = s->own[i].x[k];
         keep(s, &s->own[i]);
+    }
     for (int code = 0; code < 27; code++) {
         const int side[3] = {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
         bool is_there = side[0] || side[1] || side[2];

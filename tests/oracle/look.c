@@ -219,6 +219,7 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
     s->support = o_weight_support(s->cfg.kernel) * s->cfg.smoothing_length;
     s->time = sim->now.time;
     s->undecided = NULL;
+    s->shaken = false;
     s->sets = sim->sets;
     for (uint32_t k = 0; k < s->sets; k++)
         read_set(sim, k, &s->set[k]);
@@ -244,7 +245,7 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
             o->rest[k] = o->x[k] - (b->shift[k] ? (double)b->shift[k][i] * sim->grid.quantum : 0);
             const bool held = set->role == SPH_ROLE_SOLID && set->held >> k & 1;
             o->wall[k] = o->seen[k] = set->velocity[k];
-            o->v[k] = body && !held ? (double)b->vel[k][i] : set->velocity[k];
+            o->v[k] = !body ? set->velocity[k] : (double)(held ? (sph_real)set->velocity[k] : b->vel[k][i]);
         }
         memcpy(o->normal, set->normal, sizeof o->normal);
         memcpy(o->origin, set->origin, sizeof o->origin);

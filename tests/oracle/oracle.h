@@ -58,6 +58,7 @@ typedef struct o_particle {
     bool gone;                 /* left, or was removed: as if it had never been */
     /* state */
     double x[3], v[3], d;      /* m, m/s, (rho - rho0)/rho0 */
+    double stood[3];           /* place without what mirrors make of it */
     double rest[3];            /* reference position (m) */
     double home[3];            /* of what moves as it is told: its place at displacement 0 */
     double dev[3][3];          /* deviatoric stress, Pa, without damage */
@@ -118,6 +119,7 @@ typedef struct o_scene {
     o_sum shifted;             /* J, what shifting took since o_begin_steps */
     uint32_t left, crossed, put_back; /* particles since o_begin_steps, and their energies, J */
     o_sum carried_off, put_back_loss;
+    bool shaken;               /* filters are off by a rounding of rho0, as the kernel's (condition.c) */
     const char *undecided;     /* a choice that rounding decides (a pair exactly at a kernel's edge ...), or null */
 } o_scene;
 
@@ -252,6 +254,7 @@ typedef struct o_spread { /* what comes of an error at the beginning; infinite: 
 void o_keep(o_scene *kept, const o_scene *s); /* a copy without images, in memory of its own */
 o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps, double dt,
                        uint32_t (*flaws_of)(uint32_t id, float *threshold));
+double o_shake(const o_scene *s); /* of a filtered density: what rounding may make of it; 0 if it is not shaken */
 
 /* ---- crossing.c ---- */
 void o_cross(o_scene *s); /* who is in a wall: removed, or put back */

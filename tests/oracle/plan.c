@@ -411,9 +411,6 @@ void plan_draw(plan *p, uint64_t seed)
     draw_sets(p);
     draw_domain(p);
     draw_points(p);
-    /* the printed forms divide by a pressure that goes through 0: in many steps rounding errors grow without bound */
-    if (p->cfg.scheme == SPH_STANDARD_WICK || p->cfg.scheme == SPH_WEAK_WICK)
-        p->steps = (uint32_t)o_min(p->steps, 2);
     p->wall_d = chance(0.5) ? 0 : range(0, 0.2);
     p->cfg.filter = chance(0.5) ? SPH_SHEPARD : SPH_MLS;
     p->cfg.shepard_every = p->cfg.solid == SPH_NO_SOLID && p->cfg.density == SPH_CONTINUITY && chance(0.5) ? 1 : 0;
@@ -467,8 +464,9 @@ void plan_print(const plan *p)
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph,
            c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
-    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g\n", c->shear, c->smagorinsky,
-           c->subgrid, c->filter, c->energy, c->gamma, c->hourglass);
+    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g, edge %u, damping %g, drag %g\n",
+           c->shear, c->smagorinsky, c->subgrid, c->filter, c->energy, c->gamma, c->hourglass, c->edge, c->damping,
+           p->drag);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,
@@ -491,6 +489,13 @@ void plan_print(const plan *p)
                p->wall[k].flat ? "flat" : p->wall[k].inside ? "tank" : "block",
                p->wall[k].wall.layers, p->wall[k].wall.strength, p->wall[k].faces, p->wall[k].lo[0], p->wall[k].hi[0],
                p->wall[k].motion.v[0]);
+    for (uint32_t k = 0; k < p->walls; k++)
+        for (int r = 0; p->wall[k].by_table && r < PLAN_ROWS; r++)
+            printf("  wall %u: table of axis %u: t %.17g x %.9g\n", k, p->wall[k].axis, p->wall[k].t[r],
+                   p->wall[k].x[r]);
+    for (uint32_t k = 0; k < p->solids; k++)
+        for (int a = 0; p->solid[k].held && a < SPH_DIM; a++)
+            printf("  solid %u: held, axis %d: v %.9g a %.9g\n", k, a, p->held[k].v[a], p->held[k].a[a]);
     for (uint32_t i = 0; i < p->points && i < 12; i++) {
         printf("  point %u: set %u d %.9g x", i, p->point[i].set, p->point[i].d);
         for (int k = 0; k < SPH_DIM; k++)

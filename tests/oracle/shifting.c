@@ -5,7 +5,8 @@
      slope_i = sum V_j [1 + 0.2 (W/W(dx))^4] grad W, cover_i = sum V_j W, M_i = sum V_j (x_j - x_i) (x) grad W
    (the bracket is 1 where W(dx) is 0). At the end of a step
      dx_i = -C dt v_max 4h slope_i, cut to 0.05 dx, where cover > 0.9 and all eigenvalues of M are above 0.75
-     rho_i += rho_i min(C dt v_max/h, 1/2) (cover - 1) where they are above 0.98, unless densities are summed
+     rho_i += rho_i min(C dt v_max/h, 1/2) (cover - 1) where they are above 0.98, unless densities are summed; not
+              where that would be all of rho or more
    v_max: of the fluid, when the last forces were made. A periodic face lets round, a mirror takes the mirrored
    particle, and nobody goes through an open one. Velocities stay else. What potential and internal energy lose is the
    book `shifted`. */
@@ -101,7 +102,9 @@ void o_shift(o_scene *s, double dt)
         bool left = false;
         if (!o_is_body(s, i))
             continue;
-        i->d += (1 + i->d) * o_min(by / h, 0.5) * i->filling.v;
+        const double more = o_min(by / h, 0.5) * i->filling.v;
+        o_close(s, "a filling at its bound", fabs(more), 1, 1 + i->filling.s);
+        i->d += fabs(more) < 1 ? (1 + i->d) * more : 0;
         taken -= stored(s, i);
         for (int k = 0; k < SPH_DIM; k++)
             way[k] = by * 4 * h * i->disorder[k].v;

@@ -426,7 +426,9 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
 static void runge_kutta(o_scene *s, uint32_t number, double dt)
 {
     const double begun = s->time;
-    pass_faces(s); /* who was put back outside of them */
+    if (number > 1) /* at first all are where the kernel has them, if only just; later, who was put back outside */
+        pass_faces(s);
+    tell(s, begun, 0); /* and what is held has its own velocity again, not that of the wall it was put back off */
     filter(s, begun, begun, false);
     find_density(s, number);
     o_forces(s);
