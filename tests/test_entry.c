@@ -565,6 +565,88 @@ static void spoil_field(void *ctx, const double *x, double *v, double *rho)
     if (spoil.calls++ >= spoil.from)
         *(spoil.place < SPH_DIM ? &v[spoil.place] : rho) = spoil.value;
 }
+/* Of modules that the bed does not have everything is refused; tests/test_flow.c, test_energy.c and test_edges.c drive
+   them where they are. */
+static void row_add_inflow(void)
+{
+    sph_flow f = {.face = SPH_HIGH(0), .speed = 1};
+    no_sim(sph_add_inflow(NULL, 0, &f, OUT(uint32_t)));
+    EACH_WORD(w) {
+        f.face = w;
+        refused(sph_add_inflow(bed.sim, w, &f, OUT(uint32_t)));
+        refused(sph_add_inflow(bed.sim, w, NULL, OUT(uint32_t)));
+    }
+    EACH_NUMBER(x) {
+        f.speed = f.lo[0] = x;
+        f.hi[0] = -x;
+        refused(sph_add_inflow(bed.sim, 0, &f, OUT(uint32_t)));
+    }
+}
+static void row_add_outflow(void)
+{
+    sph_flow f = {.face = SPH_LOW(0)};
+    no_sim(sph_add_outflow(NULL, 0, &f, OUT(uint32_t)));
+    EACH_WORD(w) {
+        f.face = w;
+        refused(sph_add_outflow(bed.sim, w, &f, OUT(uint32_t)));
+        refused(sph_add_outflow(bed.sim, w, NULL, OUT(uint32_t)));
+    }
+    EACH_NUMBER(x) {
+        f.lo[0] = x;
+        f.hi[0] = -x;
+        refused(sph_add_outflow(bed.sim, 0, &f, OUT(uint32_t)));
+    }
+}
+static void no_energy(void *ctx, const double *x, double *u)
+{
+    (void)ctx, (void)x;
+    *u = 1;
+}
+static void row_apply_energy(void)
+{
+    no_sim(sph_apply_energy(NULL, 0, no_energy, NULL));
+    EACH_WORD(w) {
+        refused(sph_apply_energy(bed.sim, w, no_energy, NULL));
+        refused(sph_apply_energy(bed.sim, w, NULL, NULL));
+    }
+}
+static void row_find_edges(void)
+{
+    sph_edges e = {0};
+    no_sim(sph_find_edges(NULL, NULL));
+    refused(sph_find_edges(bed.sim, NULL));
+    EACH_WORD(w) {
+        e.faces = w;
+        refused(sph_find_edges(bed.sim, &e));
+    }
+    EACH_NUMBER(x) {
+        e.velocity[0] = e.source[0] = x;
+        refused(sph_find_edges(bed.sim, &e));
+    }
+}
+static void row_set_edge(void)
+{
+    double n[SPH_DIM] = {1};
+    no_sim(sph_set_edge(NULL, 0, 1, n));
+    EACH_WORD(w) {
+        refused(sph_set_edge(bed.sim, w, 1, n));
+        refused(sph_set_edge(bed.sim, 0, w, n));
+        refused(sph_set_edge(bed.sim, w, w, NULL));
+    }
+    EACH_NUMBER(x) {
+        n[0] = x;
+        refused(sph_set_edge(bed.sim, 0, 1, n));
+    }
+}
+static void row_get_edge(void)
+{
+    no_sim(sph_get_edge(NULL, 0, OUT(uint32_t), OUT(double)));
+    EACH_WORD(w) {
+        refused(sph_get_edge(bed.sim, w, OUT(uint32_t), (double *)(void *)(out + 64)));
+        refused(sph_get_edge(bed.sim, w, NULL, NULL));
+    }
+}
+
 static void row_apply_field(void)
 {
     no_sim(sph_apply_field(NULL, 0, spoil_field, NULL));
@@ -1086,6 +1168,7 @@ static const row rows[] = {
 #if SPH_DIM > 1
     ROW(add_flaws), ROW(get_flaws),
 #endif
+    ROW(add_inflow), ROW(add_outflow), ROW(apply_energy), ROW(find_edges), ROW(set_edge), ROW(get_edge),
     ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(motion_steady), ROW(wall_default),
     ROW(motion_programme), ROW(spline_make), ROW(motion_spline),
     ROW(add_wall_box),
