@@ -146,31 +146,35 @@ static void make_weights(const sph_config *c, double slope, sph_factors *f)
     f->weigh = full < 0 ? (sph_real)(deeper / moment) : 0;
 }
 
+/* sum of W V over row m of a lattice, to `most` spacings beside the middle */
+static double layer_of(const sph_config *c, int32_t most, int32_t m)
+{
+    const double dx = c->spacing, volume = SPH_DIM == 1 ? dx : SPH_DIM == 2 ? dx * dx : dx * dx * dx;
+    const int32_t second = SPH_DIM > 1 ? most : 0, third = SPH_DIM == 3 ? most : 0;
+    double sum = 0;
+    for (int32_t a = -second; a <= second; a++)
+        for (int32_t b = -third; b <= third; b++) {
+            double w, slope;
+            sph_kernel_value(c->kernel, __builtin_sqrt(m * m + a * a + b * b) * dx, c->smoothing_length, &w, &slope);
+            sum += w * volume;
+        }
+    return sum;
+}
+
 /* Between rows r and r + 1 below a flat face of a lattice, S (stabilised.h) lies below f->edge[r]; as far as it is
    told from the inside's: below 0.98 of it */
 static void make_levels(const sph_config *c, sph_factors *f)
 {
-    const double dx = c->spacing, reach = sph_kernel_support(c->kernel) * c->smoothing_length / dx;
-    const int32_t most = (int32_t)reach + 1, second = SPH_DIM > 1 ? most : 0, third = SPH_DIM == 3 ? most : 0;
-    double layer[32] = {0}, full = 0, volume = dx;
-    for (int32_t k = 1; k < SPH_DIM; k++)
-        volume *= dx;
-    for (int32_t m = 0; m <= most; m++) {
-        layer[m] = 0;
-        for (int32_t a = -second; a <= second; a++)
-            for (int32_t b = -third; b <= third; b++) {
-                double w, slope;
-                const double r = __builtin_sqrt(m * m + a * a + b * b) * dx;
-                sph_kernel_value(c->kernel, r, c->smoothing_length, &w, &slope);
-                layer[m] += w * volume;
-            }
-        full += m ? 2 * layer[m] : layer[m];
-    }
+    const int32_t most = (int32_t)(sph_kernel_support(c->kernel) * c->smoothing_length / c->spacing) + 1;
+    double full = layer_of(c, most, 0);
+    for (int32_t m = 1; m <= most; m++)
+        full += 2 * layer_of(c, most, m);
     for (int32_t r = 0; r < SPH_LEVELS; r++) {
         double lost = 0, next = 0;
         for (int32_t m = r + 1; m <= most; m++) {
-            lost += layer[m];
-            next += m > r + 1 ? layer[m] : 0;
+            const double layer = layer_of(c, most, m);
+            lost += layer;
+            next += m > r + 1 ? layer : 0;
         }
         f->edge[r] = lost > 0.02 * full ? (sph_real)(full - 0.5 * (lost + next)) : 0;
     }

@@ -169,7 +169,7 @@ struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
 /* room for the passes of the longest list that is in (integrators.c) */
-#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 96u : SPH_HAS_RATES_FIRST ? 64u : 48u)
+#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 64u : 48u)
 
 struct sph_sim {
     sph_config cfg;

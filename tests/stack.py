@@ -16,7 +16,8 @@ LIBRARY = 64
 HOST = "host"
 
 # what a call through a pointer may reach: pattern of the call in its source line, then where the pointers come from:
-# ("pass", field) or ("sweep", field) of the tables in the source, names of functions, or HOST
+# ("pass", field) or ("sweep", field) of the tables in the source, ("load", 0) and ("fast", 0) of the lists of column sets
+# and fast paths, names of functions, or HOST
 CALLS = [
     (r"->run\(", [("pass", 2)]),
     (r"->probe\(", [HOST]),  # asks for some bytes; at init only
@@ -26,11 +27,8 @@ CALLS = [
     (r"->home\(", [("sweep", 0)]),
     (r"->tile\(", [("sweep", 5)]),
     (r"->finish\(", [("sweep", 6)]),
-    (r"\.load\(", ["sph_load_mirror", "sph_load_stress", "sph_load_reference",
-                  "sph_load_smoothed", "sph_load_gradient"]),
-    (r"\bfast\(sim, t, homes\)", ["force_w2", "force_w2_w", "force_w2_h", "force_w2_hw", "force_w2_hb", "force_w2_hbw",
-                                 "force_cubic", "force_c", "force_c_w", "force_c_hb", "force_c_hbw", "force_s_cubic",
-                                 "force_s_cubic_r", "force_s_w2", "force_s_w2_r", "force_s_w2_t"]),
+    (r"\.load\(", [("load", 0)]),
+    (r"\.run\(sim, t, homes\)", [("fast", 0)]),
     (r"\.parallel\(", ["run_job"]),  # the host's own frames are its own
     (r"\.motion\(", ["motion_table", "motion_programme", "motion_spline"]),
     (r"->(sink|source)\(|\.stage_log\(|->stage_log\(|body_force\(|[.>]fault\(|\bfn\(", [HOST]),
@@ -63,6 +61,9 @@ def tables(source):
         for kind, body in re.findall(r"\bsph_(pass|sweep)\s+\w+\s*=\s*\{(.*?)\};", text, re.S):
             for i, member in enumerate(fields(body)):
                 found.setdefault((kind, i), set()).update(re.findall(r"\b[a-z_]\w*", member))
+        for name, lines in re.findall(r"#define (SPH_FAST_\w+|SPH_COLUMN_SETS)\(X\)((?:.*\\\n)*.*)", text):
+            kind, of = ("load", "sph_load_") if name == "SPH_COLUMN_SETS" else ("fast", "force_")
+            found.setdefault((kind, 0), set()).update(of + n for n in re.findall(r"\bX\((\w+),", lines))
     return found
 
 
