@@ -34,7 +34,7 @@ bench_2d_f64|2d|bench|60|2|8|0.85
 bench_3d_f32|3f|bench|16|1|4|0.65
 bench_3d_f64|3d|bench|16|1|4|0.70
 corrected_2d_f32|2f|corrected|60|2|8|1.80|bench_2d_f32
-corrected_3d_f32|3f|corrected|16|1|4|2.00|bench_3d_f32
+corrected_3d_f32|3f|corrected|16|1|4|2.05|bench_3d_f32
 elastic_2d_f32|2f|elastic|60|2|8|1.01
 total_2d_f32|2f|total|60|2|8|1.01
 dam_break_2d|2f|default|60|2|8|0.52
