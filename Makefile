@@ -423,7 +423,7 @@ fuzz-replay:
 
 # with what must hold inside (sph/checks.h); what is heavy is on in fuzzing: tests of faults throw particles about
 asan_flags := -fsanitize=address,undefined -DSPH_ASSERTS=1
-tsan_flags := -fsanitize=thread -DSPH_ASSERTS=1
+tsan_flags := -fsanitize=thread -DSPH_ASSERTS=1 -DSPH_SMALL=1
 msan_flags := -fsanitize=memory -DSPH_ASSERTS=1 -fsanitize-memory-track-origins
 sanitized = $(MAKE) --no-print-directory $(1) BUILD=$(BUILD)/$(2) CC="$(CLANG)" WARN="-Wall -Wno-pass-failed" \
 	OPT="-O1 -g -fno-omit-frame-pointer" CFLAGS="$($(2)_flags) -fno-sanitize-recover=all" LDFLAGS="$($(2)_flags)"
