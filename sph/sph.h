@@ -818,9 +818,10 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
                 up): the last chunks, one a thread, may pass the budget, and a chunk is a cell of a sweep, k slabs of
                 a sort, or 256 particles. The first sort of all has one chunk of n + cells units: sph_ready does it
                 beforehand. So has the first after a step that failed or was given up, and after a restore.
-     a step     at most E (3^DIM c n + cells + 32) + 16 n + 4 cells units. E counts its sweeps: 1 for the forces (2
+     a step     at most E (3^DIM c n + cells + 32) + 28 n + 4 cells units. E counts its sweeps: 1 for the forces (2
                 for all integrators but the predictor-corrector), as many again with Adami walls, with SPH_CORRECTED
-                or SPH_TOTAL, with xsph_strain, with gradients of fluids, and with a viscous stress; 1 each for the
+                or SPH_TOTAL, with xsph_strain, with gradients of fluids, with a viscous stress, with normalised
+                kernels and with hourglass, twice as many with SPH_STABILISED; 1 each for the
                 density filter and summation (with Runge-Kutta 2 and 4: with the latter it sorts once more).
    Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
@@ -833,7 +834,7 @@ sph_status sph_step_slice(sph_sim *sim, uint64_t budget);
     ((threads) * SPH_MAX_(SPH_MAX_(SPH_AROUND_(c) * (c) + 1u,                                               \
                                    (SPH_RANGE_(slabs) + 2u) * (s) + SPH_RANGE_(slabs) * (b)), 256u))
 #define SPH_STEP_WORK(sweeps, n, c, cells)                                                                  \
-    ((sweeps) * (SPH_AROUND_(c) * (n) + (cells) + 32u) + 16u * (uint64_t)(n) + 4u * (uint64_t)(cells))
+    ((sweeps) * (SPH_AROUND_(c) * (n) + (cells) + 32u) + 28u * (uint64_t)(n) + 4u * (uint64_t)(cells))
 /* Gives up a step that was begun in slices. */
 #define sph_step_cancel SPH_NAME(step_cancel)
 void sph_step_cancel(sph_sim *sim);

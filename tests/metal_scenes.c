@@ -12,7 +12,7 @@
 #include "port/cortexm.h"
 
 #define STEPS 2u
-#define MOST_PARAMS 64
+#define MOST_PARAMS 96
 #define MOST 5100u
 #ifndef ARENA
 #define ARENA (13u << 20)
