@@ -20,7 +20,8 @@ WATER_ONLY=${WATER_ONLY:-$water}
 WATER_CALLS="config_default arena_bytes init get_usage last add_fluid add_box wall_default add_wall_box ready step
     step_to step_slice step_cancel get_step time count get hash"
 SELDOM="${w}SHIFTING=0 ${w}SHEAR=0 ${w}MLS=0 ${w}ENERGY=0 ${w}FLOW=0 ${w}EDGES=0"
-SELDOM="$SELDOM ${w}STABILISED=0 ${w}NORMALISED=0 ${w}HOURGLASS=0 ${w}DAMPER=0 ${w}DAMPING_RATE=0 ${w}XSPH_VELOCITY=0"
+SELDOM="$SELDOM ${w}ONE_SIDED=0 ${w}STABILISED=0 ${w}NORMALISED=0 ${w}HOURGLASS=0 ${w}DAMPER=0"
+SELDOM="$SELDOM ${w}DAMPING_RATE=0 ${w}XSPH_VELOCITY=0"
 WATER_LIMIT=25600 STACK_LIMIT=2048 HOST_STACK_LIMIT=8192
 out=$BUILD/size.csv dir=$BUILD/size stacks=$BUILD/stack.csv committed=tests/results/size.csv
 

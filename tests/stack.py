@@ -16,8 +16,8 @@ LIBRARY = 64
 HOST = "host"
 
 # what a call through a pointer may reach: pattern of the call in its source line, then where the pointers come from:
-# ("pass", field) or ("sweep", field) of the tables in the source, ("load", 0) and ("fast", 0) of the lists of column sets
-# and fast paths, names of functions, or HOST
+# ("pass", field) or ("sweep", field) of the tables in the source, ("load", 0), ("fast", 0) of the lists of column
+# sets and fast paths, names of functions, or HOST
 CALLS = [
     (r"->run\(", [("pass", 2)]),
     (r"->probe\(", [HOST]),  # asks for some bytes; at init only
