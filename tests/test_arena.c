@@ -3,8 +3,9 @@
    fields lay out, for every combination of modules. */
 #include "testing.h"
 
-static const uint32_t use_of_solid[SPH_SOLIDS] = {0, SPH_USE_SOLID, SPH_USE_SOLID | SPH_USE_CORRECTED,
-                                                  SPH_USE_SOLID | SPH_USE_CORRECTED | SPH_USE_TOTAL};
+static const uint32_t use_of_solid[SPH_SOLIDS] = {
+    0, SPH_USE_SOLID, SPH_USE_SOLID | SPH_USE_CORRECTED, SPH_USE_SOLID | SPH_USE_CORRECTED | SPH_USE_TOTAL,
+    SPH_USE_SOLID | SPH_USE_FORMS, SPH_USE_SOLID | SPH_USE_FORMS, SPH_USE_SOLID | SPH_USE_FORMS};
 
 typedef struct combination {
     sph_config c;
@@ -31,14 +32,23 @@ static bool combine(uint32_t i, combination *o)
     c->damage = i & 64 ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
     o->flaws = c->max_flaws = i & 64 ? 50 : 0;
     c->solid = i >> 7 & 3;
-    c->face_quadrature = i >> 9;
+    c->face_quadrature = i >> 9 & 1;
+    if (i >> 10 & 3) /* a form for tension */
+        c->solid = SPH_TOTAL + (i >> 10 & 3);
+    if (i >> 12 & 1) { /* an edge; matched layers with books */
+        c->integrator = SPH_KICK_DRIFT_KICK;
+        c->edge = SPH_EDGE_NATURAL;
+        c->edge_width = i & 4 ? 0.3 : 0;
+    }
+    c->hourglass = i >> 13 & 1 ? 0.5 : 0;
     c->face[0][1] = i % 3 == 1 ? SPH_SYMMETRY : i % 3 == 2 ? SPH_MIRROR_NO_SLIP : SPH_OPEN;
     o->use = (i & 1 ? SPH_USE_RUNGE_KUTTA : 0) | (i & 2 ? SPH_USE_XSPH : 0) | (i & 4 ? SPH_USE_BOOKS : 0) |
              (i & 24 ? SPH_USE_FILTER : 0) | (i & 32 ? SPH_USE_YIELD : 0) | (i & 64 ? SPH_USE_DAMAGE : 0) |
-             (i % 3 ? SPH_USE_MIRRORS : 0) | (i >> 9 ? SPH_USE_QUADRATURE : 0) | use_of_solid[c->solid];
+             (i % 3 ? SPH_USE_MIRRORS : 0) | (i >> 9 & 1 ? SPH_USE_QUADRATURE : 0) | use_of_solid[c->solid] |
+             (i >> 12 & 1 ? SPH_USE_EDGES : 0) | (i >> 13 & 1 ? SPH_USE_FORMS : 0);
     return sph_config_check(c, NULL) == SPH_OK;
 }
-enum { COMBINATIONS = (SPH_TOTAL + 1) << 8 };
+enum { COMBINATIONS = 1 << 14, EXACT = (SPH_TOTAL + 1) << 8 }; /* forms and edges have one flag for several arrays */
 
 static void the_constant_is_never_too_small(void **state)
 {
@@ -72,7 +82,7 @@ static void a_particle_costs_what_the_constant_says(void **state)
 {
     const uint32_t few = 64 * 256, many = 11 * few; /* whole pages of 64 bytes and whole chunks */
     (void)state;
-    for (uint32_t i = 0; i < COMBINATIONS; i++) {
+    for (uint32_t i = 0; i < EXACT; i++) {
         combination o;
         if (!combine(i, &o))
             continue;
