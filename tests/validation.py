@@ -206,6 +206,8 @@ def main(cases, name, doc):
     Run.out = os.path.join("build", name)
     os.makedirs(Run.out, exist_ok=True)
     rows = [r for r in cases(a.quick) if a.only in r[0]]
+    if not rows:
+        sys.exit(f"{name}: --only {a.only}: no row has that in its name")
     runs = {r.name: r for row in rows for r in row[3]}
     for row in rows:  # equal runs are made once
         row[3][:] = [runs[r.name] for r in row[3]]

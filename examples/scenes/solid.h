@@ -41,7 +41,7 @@ static inline sph_config solid_config(const double *p, double dx)
     c.stress_exponent = (uint32_t)p[SOLID_EXPONENT];
     c.xsph_strain = p[SOLID_STRAIN] != 0;
     c.yield = p[SOLID_YIELD] > 0 ? p[SOLID_PRINTED] != 0 ? SPH_VON_MISES_GRAY : SPH_VON_MISES : SPH_NO_YIELD;
-    c.hourglass = c.solid == SPH_TOTAL ? p[SOLID_HOURGLASS] : 0;
+    c.hourglass = p[SOLID_HOURGLASS];
     c.on_leave = SPH_FAIL;
     return c;
 }
