@@ -54,11 +54,10 @@ static void drive(void *ctx, double t, double *x, double *v)
     sph_motion_programme(&m, t, x, v);
 }
 
-static void tank(const double *p, double *lo, double *hi)
+static wave_tank tank(const double *p)
 {
-    lo[0] = lo[1] = 0;
-    hi[0] = p[LENGTH] * p[DEPTH];
-    hi[1] = (1 + 2 * (jump(p) - 1) + 1) * p[DEPTH];
+    return (wave_tank){p[LENGTH] * p[DEPTH], (1 + 2 * (jump(p) - 1) + 1) * p[DEPTH], p[BED] == BED_WALL,
+                       drive};
 }
 static double flat(const void *p, double x) { return (void)p, (void)x, 0; }
 static void flow(const void *of, double x, double y, double *v, double *pressure)
@@ -75,47 +74,17 @@ static wave_water water(const double *p)
                         .n = (uint32_t)p[N], .surface = flat, .flow = flow, .of = p};
 }
 
-/* the bed's wall reaches behind the moving end, as in piston.c */
-#define BED_FACES (SPH_LOW(1) | SPH_HIGH(0))
-static void bed_box(const double *p, double *lo, double *hi)
-{
-    tank(p, lo, hi);
-    lo[0] -= scene_margin(p, spacing(p)) - spacing(p);
-}
-
 static void configure(const double *p, sph_config *c)
 {
-    const double dx = spacing(p), m = scene_margin(p, dx);
     const wave_water w = water(p);
-    double lo[2], hi[2], low[2], high[2];
-    tank(p, lo, hi);
-    bed_box(p, low, high);
-    *c = scene_config(p, dx, 1000, p[SOUND] * wave_long(p[GRAVITY], p[DEPTH]));
-    c->gravity[1] = -p[GRAVITY];
-    c->lo[0] = -m;
-    c->hi[0] = hi[0] + (p[BED] == BED_WALL ? m : 0);
-    c->lo[1] = p[BED] == BED_WALL ? -m : 0;
-    c->hi[1] = hi[1] + m;
-    if (p[BED] == BED_SYMMETRY)
-        c->face[0][1] = c->face[1][0] = SPH_SYMMETRY;
-    c->max_particles = scene_capacity(wave_count(&w) + scene_wall_count(p, lo, hi, dx, SPH_LOW(0)) +
-                                      (p[BED] == BED_WALL ? scene_wall_count(p, low, high, dx, BED_FACES) : 0));
+    const wave_tank k = tank(p);
+    *c = wave_tank_configure(p, &w, &k);
 }
-
 static sph_status build(sph_sim *sim, const double *p)
 {
     const wave_water w = water(p);
-    double lo[2], hi[2];
-    sph_wall wall = scene_wall(p);
-    sph_status st = wave_add(sim, p, &w);
-    bed_box(p, lo, hi);
-    if (!st && p[BED] == BED_WALL)
-        st = scene_add_tank(sim, p, lo, hi, spacing(p), BED_FACES);
-    wall.motion = drive;
-    wall.motion_ctx = (void *)(uintptr_t)p;
-    tank(p, lo, hi);
-    lo[0] -= p[SCENE_WALL] == SCENE_LENNARD_JONES ? 0.5 * spacing(p) : 0;
-    return st ? st : sph_add_wall_box(sim, &wall, lo, hi, SPH_LOW(0), true, NULL);
+    const wave_tank k = tank(p);
+    return wave_tank_build(sim, p, &w, &k);
 }
 
 static const char *const column[] = {

@@ -107,4 +107,50 @@ sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w)
     const sph_status st = sph_add_fluid(sim, &f, &set);
     return st ? st : add_columns(sim, p, set, w, mass);
 }
+/* ---- a tank with a driven end ---- */
+
+static double tank_spacing(const wave_water *w) { return w->depth / w->n; }
+#define BED_FACES (SPH_LOW(1) | SPH_HIGH(0))
+/* The bed's wall reaches behind the driven end, whose layers end on it: no corner is open, no particle doubled. */
+static void bed_box(const double *p, const wave_water *w, const wave_tank *tank, double *lo, double *hi)
+{
+    lo[0] = tank_spacing(w) - scene_margin(p, tank_spacing(w));
+    lo[1] = 0;
+    hi[0] = tank->length;
+    hi[1] = tank->height;
+}
+
+sph_config wave_tank_configure(const double *p, const wave_water *w, const wave_tank *tank)
+{
+    const double dx = tank_spacing(w), m = scene_margin(p, dx), lo[2] = {0, 0}, hi[2] = {tank->length, tank->height};
+    double low[2], high[2];
+    sph_config c = scene_config(p, dx, 1000, w->sound * wave_long(w->gravity, w->depth));
+    bed_box(p, w, tank, low, high);
+    c.gravity[1] = -w->gravity;
+    c.lo[0] = -m;
+    c.hi[0] = hi[0] + (tank->walls ? m : 0);
+    c.lo[1] = tank->walls ? -m : 0;
+    c.hi[1] = hi[1] + m;
+    if (!tank->walls)
+        c.face[0][1] = c.face[1][0] = SPH_SYMMETRY;
+    c.max_particles = scene_capacity(wave_count(w) + scene_wall_count(p, lo, hi, dx, SPH_LOW(0)) +
+                                     (tank->walls ? scene_wall_count(p, low, high, dx, BED_FACES) : 0));
+    return c;
+}
+
+sph_status wave_tank_build(sph_sim *sim, const double *p, const wave_water *w, const wave_tank *tank)
+{
+    const double dx = tank_spacing(w), top[2] = {tank->length, tank->height};
+    const double end[2] = {p[SCENE_WALL] == SCENE_LENNARD_JONES ? -0.5 * dx : 0, 0};
+    double lo[2], hi[2];
+    sph_wall wall = scene_wall(p);
+    sph_status st = wave_add(sim, p, w);
+    bed_box(p, w, tank, lo, hi);
+    if (!st && tank->walls)
+        st = scene_add_tank(sim, p, lo, hi, dx, BED_FACES);
+    wall.motion = tank->drive;
+    wall.motion_ctx = (void *)(uintptr_t)p;
+    return st ? st : sph_add_wall_box(sim, &wall, end, top, SPH_LOW(0), true, NULL);
+}
+
 #endif

@@ -38,4 +38,15 @@ sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w);
 #define wave_long SPH_NAME(wave_long)
 double wave_long(double gravity, double depth);
 
+/* A tank from x 0 whose low end is driven; bed and far end are of wall particles or planes of symmetry. */
+typedef struct wave_tank {
+    double length, height; /* m */
+    bool walls;            /* bed and far end */
+    sph_motion drive;      /* its context: the scene's parameters */
+} wave_tank;
+#define wave_tank_configure SPH_NAME(wave_tank_configure)
+sph_config wave_tank_configure(const double *p, const wave_water *w, const wave_tank *tank);
+#define wave_tank_build SPH_NAME(wave_tank_build)
+sph_status wave_tank_build(sph_sim *sim, const double *p, const wave_water *w, const wave_tank *tank);
+
 #endif
