@@ -3,6 +3,7 @@
    images; the traction of a line against its exact solution; P, M, H on linear velocities; that edges only take
    energy, hold what stood, and are of second order; the book; refusals; restarts, slices, threads, failures. What they
    reflect: tests/validate_edges.py. */
+#include "any_way.h"
 #include "testing.h"
 
 #define DX 0.1
@@ -560,28 +561,6 @@ static void what_makes_no_edge_is_refused(void **state)
 
 /* ---- the machine that runs steps ---- */
 
-typedef struct bytes {
-    unsigned char data[1 << 21];
-    size_t size, at;
-} bytes;
-static bool put(void *ctx, const void *data, size_t n)
-{
-    bytes *b = ctx;
-    if (b->size + n > sizeof b->data)
-        return false;
-    memcpy(b->data + b->size, data, n);
-    b->size += n;
-    return true;
-}
-static bool get(void *ctx, void *data, size_t n)
-{
-    bytes *b = ctx;
-    if (b->at + n > b->size)
-        return false;
-    memcpy(data, b->data + b->at, n);
-    b->at += n;
-    return true;
-}
 static sph_sim *begin(const sph_config *c)
 {
     sph_sim *sim = new_sim(c);
@@ -591,49 +570,21 @@ static sph_sim *begin(const sph_config *c)
 
 static void slices_threads_and_restarts_change_no_bit(void **state)
 {
-    static bytes dump;
-    shuffle s;
     sph_totals t;
     (void)state;
     for (uint32_t turn = 0; turn < 3; turn++) {
         sph_config c = edge_config(turn == 2 ? SPH_EDGE_M : SPH_EDGE_NATURAL, turn ? SPH_TOTAL : SPH_CORRECTED);
         c.edge_width = turn == 1 ? 4 * DX : 0;
-        c.max_threads = 3;
         c.max_particles = 1000;
-        sph_sim *whole = begin(&c), *other = begin(&c), *late = begin(&c);
-        dump.size = dump.at = 0;
-        for (int k = 0; k < 8; k++) {
-            must(whole, sph_step(whole));
-            if (k == 3)
-                must(whole, sph_dump(whole, SPH_DUMP_FULL, put, &dump));
-        }
-        sph_get_totals(whole, &t);
+        sph_get_totals(same_bits_any_way(c, begin, 8), &t);
         assert_true(t.absorbed != 0);
-        must(late, sph_restore(late, get, &dump));
-        for (int k = 4; k < 8; k++)
-            must(late, sph_step(late));
-        assert_true(sph_hash(late) == sph_hash(whole));
-        for (uint64_t budget = 1; budget <= 10000; budget *= 10) {
-            sph_sim *sliced = begin(&c);
-            for (int k = 0; k < 8;) {
-                const sph_status st = sph_step_slice(sliced, budget);
-                assert_true(st == SPH_OK || st == SPH_NOT_DONE);
-                k += st == SPH_OK;
-            }
-            assert_true(sph_hash(sliced) == sph_hash(whole));
-        }
-        c.port = shuffle_port(&s, 3);
-        must(other, sph_reconfigure(other, &c));
-        for (int k = 0; k < 8; k++)
-            must(other, sph_step(other));
-        assert_true(s.calls > 8 && sph_hash(other) == sph_hash(whole));
         /* a dump does not fit a scene with other edges */
         sph_sim *elsewhere = new_sim(&c);
         const sph_edges e = {.faces = SPH_LOW(0)};
         random_cloud(elsewhere, add_rock(elsewhere), N, DX, 0, 0.05, 0);
         must(elsewhere, sph_find_edges(elsewhere, &e));
-        dump.at = 0;
-        assert_true(sph_restore(elsewhere, get, &dump) != SPH_OK);
+        middle_dump.at = 0;
+        assert_true(sph_restore(elsewhere, get_bytes, &middle_dump) != SPH_OK);
         assert_int_equal(free_sims(NULL), 0);
     }
 }

@@ -2,6 +2,7 @@
 /* test_forms.c: forms of solids: the stabilised form's sums over neighbours, that it is the plain form inside a lattice
    and at rest beside a face, momentum; normalised kernels on linear fields; hourglass control against its energy; which
    form fails in the Swegle test (Powell 2012 sections 3.2, 4.2.2); slices, threads, restarts, refusals. */
+#include "any_way.h"
 #include "bodies.h"
 
 #define DX 0.1
@@ -281,56 +282,13 @@ static void forms_fail_in_the_swegle_test_where_they_must(void **state)
 
 /* ---- slices, threads, restarts; refusals ---- */
 
-typedef struct bytes {
-    unsigned char data[1 << 20];
-    size_t size, at;
-} bytes;
-static bool put(void *ctx, const void *data, size_t n)
-{
-    bytes *b = ctx;
-    if (n > sizeof b->data - b->size)
-        return false;
-    memcpy(b->data + b->size, data, n);
-    b->size += n;
-    return true;
-}
-static bool get(void *ctx, void *data, size_t n)
-{
-    bytes *b = ctx;
-    if (b->at + n > b->size)
-        return false;
-    memcpy(data, b->data + b->at, n);
-    b->at += n;
-    return true;
-}
-
+static sph_sim *two_bodies(const sph_config *c) { return body(c, 0.1, -0.03, true); }
 static void slices_threads_and_restarts_change_no_bit(void **state)
 {
-    static bytes dump;
-    shuffle s;
     (void)state;
     for (uint32_t i = 0; i < SPH_INTEGRATORS + FORMS; i++) {
-        sph_config c = config_of(forms[i < FORMS ? i : 0], i < FORMS ? SPH_KICK_DRIFT_KICK : i - FORMS);
-        sph_sim *whole = body(&c, 0.1, -0.03, true), *other = body(&c, 0.1, -0.03, true);
-        sph_sim *late = body(&c, 0.1, -0.03, true), *sliced = body(&c, 0.1, -0.03, true);
-        dump.size = dump.at = 0;
-        for (int k = 0; k < 4; k++) {
-            must(whole, sph_step(whole));
-            if (k == 1)
-                must(whole, sph_dump(whole, SPH_DUMP_FULL, put, &dump));
-        }
-        must(late, sph_restore(late, get, &dump));
-        for (int k = 2; k < 4; k++)
-            must(late, sph_step(late));
-        assert_true(sph_hash(late) == sph_hash(whole));
-        for (int k = 0; k < 4;)
-            k += sph_step_slice(sliced, 10) == SPH_OK;
-        assert_true(sph_hash(sliced) == sph_hash(whole));
-        c.port = shuffle_port(&s, 3);
-        must(other, sph_reconfigure(other, &c));
-        for (int k = 0; k < 4; k++)
-            must(other, sph_step(other));
-        assert_true(sph_hash(other) == sph_hash(whole));
+        same_bits_any_way(config_of(forms[i < FORMS ? i : 0], i < FORMS ? SPH_KICK_DRIFT_KICK : i - FORMS), two_bodies,
+                          4);
         assert_int_equal(free_sims(NULL), 0);
     }
 }

@@ -2,6 +2,7 @@
 /* test_quadrature.c: weights beside flat faces of solids: on lattices against their derivation, the energy of a bent
    strip, clamps, what is conserved, that a weight is kept, refusals, and that slices, threads and restarts change no
    bit. */
+#include "any_way.h"
 #include "bodies.h"
 
 #define DX 0.1
@@ -268,56 +269,14 @@ static void a_weight_is_kept(void **state)
     assert_int_equal(free_sims(NULL), 0);
 }
 
-typedef struct bytes {
-    unsigned char data[1 << 20];
-    size_t size, at;
-} bytes;
-static bool put(void *ctx, const void *data, size_t n)
-{
-    bytes *b = ctx;
-    if (n > sizeof b->data - b->size)
-        return false;
-    memcpy(b->data + b->size, data, n);
-    b->size += n;
-    return true;
-}
-static bool get(void *ctx, void *data, size_t n)
-{
-    bytes *b = ctx;
-    if (b->at + n > b->size)
-        return false;
-    memcpy(data, b->data + b->at, n);
-    b->at += n;
-    return true;
-}
-
+static sph_sim *moving_body(const sph_config *c) { return moving(c, 1); }
 static void slices_threads_and_restarts_change_no_bit(void **state)
 {
-    static bytes dump;
-    shuffle s;
     (void)state;
     for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
         sph_config c = config_of(i % 2 ? SPH_CORRECTED : SPH_TOTAL, 0.8, 1);
         c.integrator = i;
-        sph_sim *whole = moving(&c, 1), *other = moving(&c, 1), *late = moving(&c, 1), *sliced = moving(&c, 1);
-        dump.size = dump.at = 0;
-        for (int k = 0; k < 6; k++) {
-            must(whole, sph_step(whole));
-            if (k == 2)
-                must(whole, sph_dump(whole, SPH_DUMP_FULL, put, &dump));
-        }
-        must(late, sph_restore(late, get, &dump));
-        for (int k = 3; k < 6; k++)
-            must(late, sph_step(late));
-        assert_true(sph_hash(late) == sph_hash(whole));
-        for (int k = 0; k < 6;)
-            k += sph_step_slice(sliced, 10) == SPH_OK;
-        assert_true(sph_hash(sliced) == sph_hash(whole));
-        c.port = shuffle_port(&s, 3);
-        must(other, sph_reconfigure(other, &c));
-        for (int k = 0; k < 6; k++)
-            must(other, sph_step(other));
-        assert_true(sph_hash(other) == sph_hash(whole));
+        same_bits_any_way(c, moving_body, 6);
         assert_int_equal(free_sims(NULL), 0);
     }
 }

@@ -2,6 +2,7 @@
 /* test_sponge.c: sponge layers: a lone particle against the integral of its equation, the order in time, what must not
    be touched, the book, refusals, and that restarts, slices, threads and failures change nothing. That they take in
    waves is tested by tests/test_atlas.c. */
+#include "any_way.h"
 #include "testing.h"
 
 #define DX 0.1
@@ -387,29 +388,6 @@ static void what_makes_no_layer_is_refused(void **state)
 
 /* ---- the machine that runs steps ---- */
 
-typedef struct bytes {
-    unsigned char data[1 << 21];
-    size_t size, at;
-} bytes;
-static bool put(void *ctx, const void *data, size_t n)
-{
-    bytes *b = ctx;
-    if (b->size + n > sizeof b->data)
-        return false;
-    memcpy(b->data + b->size, data, n);
-    b->size += n;
-    return true;
-}
-static bool get(void *ctx, void *data, size_t n)
-{
-    bytes *b = ctx;
-    if (b->at + n > b->size)
-        return false;
-    memcpy(data, b->data + b->at, n);
-    b->at += n;
-    return true;
-}
-
 static sph_sim *begin(const sph_config *c)
 {
     sph_sim *sim = new_sim(c);
@@ -419,41 +397,13 @@ static sph_sim *begin(const sph_config *c)
 
 static void slices_threads_and_restarts_change_no_bit(void **state)
 {
-    static bytes dump;
-    shuffle s;
     sph_totals t;
     (void)state;
     for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
         sph_config c = cloud_config(2.5);
         c.integrator = i;
-        c.max_threads = 3;
-        sph_sim *whole = begin(&c), *other = begin(&c), *late = begin(&c);
-        dump.size = dump.at = 0;
-        for (int k = 0; k < 8; k++) {
-            must(whole, sph_step(whole));
-            if (k == 3)
-                must(whole, sph_dump(whole, SPH_DUMP_FULL, put, &dump));
-        }
-        sph_get_totals(whole, &t);
+        sph_get_totals(same_bits_any_way(c, begin, 8), &t);
         assert_true(t.absorbed > 0);
-        must(late, sph_restore(late, get, &dump));
-        for (int k = 4; k < 8; k++)
-            must(late, sph_step(late));
-        assert_true(sph_hash(late) == sph_hash(whole));
-        for (uint64_t budget = 1; budget <= 10000; budget *= 10) {
-            sph_sim *sliced = begin(&c);
-            for (int k = 0; k < 8;) {
-                const sph_status st = sph_step_slice(sliced, budget);
-                assert_true(st == SPH_OK || st == SPH_NOT_DONE);
-                k += st == SPH_OK;
-            }
-            assert_true(sph_hash(sliced) == sph_hash(whole));
-        }
-        c.port = shuffle_port(&s, 3);
-        must(other, sph_reconfigure(other, &c));
-        for (int k = 0; k < 8; k++)
-            must(other, sph_step(other));
-        assert_true(s.calls > 8 && sph_hash(other) == sph_hash(whole));
         assert_int_equal(free_sims(NULL), 0);
     }
 }
