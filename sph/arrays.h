@@ -21,9 +21,8 @@
     ONE(tmp, sph_real, SPH_ROOM(c), sph_filters(c) || sph_sums_density(c), "filtered density")                        \
     MANY(corr, sph_real, SPH_NL, SPH_ROOM(c), sph_corrects(c), "gradient correction") /* M^-1, destination buffer */  \
     MANY(row, sph_real, SPH_DIM, SPH_ROOM(c), sph_stabilises(c), "stabilised: means over rows")                       \
-    MANY(drawn, sph_real, SPH_DIM, SPH_ROOM(c), sph_stabilises(c), "stabilised: means over columns")                  \
-    MANY(mean, sph_real, SPH_DIM, SPH_ROOM(c), sph_stabilises(c), "stabilised: means of these")                       \
-    ONE(tension, uint8_t, SPH_ROOM(c), sph_stabilises(c), "stabilised: axes in tension") /* bits */                   \
+    MANY(drawn, sph_real, SPH_DIM + 1, SPH_ROOM(c), sph_stabilises(c), "stabilised: means over columns") /* level */  \
+    MANY(tension, sph_real, SPH_DIM, SPH_ROOM(c), sph_stabilises(c), "stabilised: axes in tension") /* 1 or 0 */      \
     MANY(normal, sph_real, SPH_NL + SPH_DIM, SPH_ROOM(c), sph_normalises(c), "normalised kernels")                    \
     MANY(deform, sph_real, SPH_NL + 1, SPH_ROOM(c), sph_resists_hourglass(c), "deformation gradients")                \
     MANY(gradient, sph_real, SPH_NT, SPH_ROOM(c), sph_corrects_fluids(c), "gradient correction of fluids")            \

@@ -15,8 +15,9 @@
     X(reference, 0, SPH_DIM + 1, SPH_HAS_TOTAL, sph_is_total(c))                                                   \
     X(quadrature, 0, 2, SPH_HAS_QUADRATURE, sph_weighs_faces(c))                                                   \
     X(cover, 0, 1, SPH_HAS_QUADRATURE, sph_weighs_faces(c))                                                        \
+    X(diagonal, 0, SPH_DIM, SPH_HAS_STABILISED, sph_stabilises(c))                                                 \
     X(edge, 0, SPH_DIM + 2, SPH_HAS_STABILISED, sph_stabilises(c))                                                 \
-    X(drawn, 0, SPH_DIM, SPH_HAS_STABILISED, sph_stabilises(c))                                                    \
+    X(drawn, 0, SPH_DIM + 1, SPH_HAS_STABILISED, sph_stabilises(c))                                                \
     X(means, 0, 2 * SPH_DIM, SPH_HAS_STABILISED, sph_stabilises(c))                                                \
     X(deform, 0, SPH_NL + 1, SPH_HAS_HOURGLASS, sph_resists_hourglass(c))                                          \
     X(smoothed, 0, SPH_DIM, SPH_HAS_HAT, sph_smooths_strain(c))                                                    \

@@ -569,14 +569,22 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                          .energy = sph_has_energy(c)};
 }
 
-/* the fast paths of this pass, of tiles of matter and of ghosts, for all cells of a chunk */
+/* the fast paths of this pass, of tiles of matter (last without its form) and of ghosts, for all cells of a chunk */
 static void find_fast_paths(const sph_sim *sim, sph_thread *t)
 {
-    for (uint32_t wall = 0; wall < 2; wall++) {
+    for (uint32_t wall = 2; wall-- > 0;) {
         sph_choice c = choice_of(sim, wall);
         c.apart = SPH_HAS_APART && sph_asks_apart(sim);
         t->fast_path[wall] = fast_path_of(&c);
+        c.form = 0;
+        t->fast_path[2] = fast_path_of(&c);
     }
+}
+
+/* whether nobody in a tile feels what the stabilised form adds */
+static bool is_slack(const sph_sim *sim, const sph_thread *t, const sph_choice *c, uint32_t homes)
+{
+    return sph_stabilised(c) && !c->wall && !sph_is_drawn(sim, t, homes);
 }
 
 /* Adds a tile to the homes' sums, in a general form, where no fast path has. A ghost whose density goes by continuity
@@ -587,6 +595,7 @@ static void force_tile_any(const sph_sim *sim, sph_thread *t, uint32_t homes, ui
     const uint8_t diffusion = c.diffusion;
     const sph_factors *f = &sim->fac;
     c.apart = SPH_HAS_APART && sph_asks_apart(sim);
+    c.form = is_slack(sim, t, &c, homes) ? 0 : c.form;
     for (uint32_t h = 0; h < homes; h++) {
         const bool matter = sph_is_matter(&sim->set[t->home_set[h]]);
         if (matter ? fast : role != SPH_ROLE_FLUID)
@@ -611,8 +620,9 @@ static void force_tile_any(const sph_sim *sim, sph_thread *t, uint32_t homes, ui
 }
 static void force_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role)
 {
-    const uint32_t path =
-        SPH_WITH_FAST_PATHS && role != SPH_ROLE_FORCE_WALL ? t->fast_path[role == SPH_ROLE_GHOST] : 0;
+    uint32_t path = SPH_WITH_FAST_PATHS && role != SPH_ROLE_FORCE_WALL ? t->fast_path[role == SPH_ROLE_GHOST] : 0;
+    if (SPH_HAS_STABILISED && path && is_slack(sim, t, &fast_paths[path - 1].c, homes))
+        path = t->fast_path[2];
     if (!path || fast_paths[path - 1].run(sim, t, homes) < homes)
         force_tile_any(sim, t, homes, role, path != 0);
 }
@@ -632,7 +642,7 @@ static uint32_t columns_of(const sph_choice *c)
     return (SPH_HAS_LAYERED_WALLS && (sph_viscous(c->viscosity) || c->shear) ? 1u << SPH_COLUMN_mirror : 0) |
            (c->shear ? 1u << SPH_COLUMN_shear : 0) | (SPH_WITH_ENERGY && c->energy ? 1u << SPH_COLUMN_energy : 0) |
            (c->hourglass ? 1u << SPH_COLUMN_deform : 0) |
-           (sph_stabilised(c) ? 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_drawn | 1u << SPH_COLUMN_means : 0) |
+           (sph_stabilised(c) ? 1u << SPH_COLUMN_drawn | 1u << SPH_COLUMN_means : 0) |
            (c->solid && forces ? 1u << SPH_COLUMN_stress : 0) | (c->total ? 1u << SPH_COLUMN_reference : 0) |
            (c->hat ? 1u << SPH_COLUMN_smoothed : 0) | (gradient ? 1u << SPH_COLUMN_gradient : 0);
 }

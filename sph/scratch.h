@@ -99,7 +99,7 @@ typedef struct sph_thread {
 #endif
             uint32_t home_at[SPH_HOMES]; /* index of the home particle */
             uint8_t home_set[SPH_HOMES];
-            uint8_t fast_path[2]; /* of tiles of matter, of ghosts (forces.c) */
+            uint8_t fast_path[3]; /* of tiles of matter, of ghosts, of matter without its form (forces.c) */
             /* where a pass asks for tiles of one kind: a set in `matter`, through which image, from which cell */
             const sph_set *of;
             sph_image seen;

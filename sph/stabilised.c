@@ -6,8 +6,8 @@
    a flat face of a lattice whose S lies below its own (factors.c: f->edge between rows, as far as S is under 0.98).
    Powell's search for layers (his algorithms 2.1, 2.2) asks for passes over all particles; this is local.
 
-   Fields: filled S (0: not yet), slant D. Arrays: row, drawn col/V, mean (SPH_DIM reals each), tension (bits). Cost: a
-   sweep once; two before the forces. */
+   Fields: filled S (0: not yet), slant D. Arrays: row (in the end row - mean), drawn col and level,
+   tension (SPH_DIM reals each, and one). Cost: a sweep once, two before the forces. */
 #include "stabilised.h"
 #include "arithmetic.h"
 
@@ -29,38 +29,70 @@ SPH_INLINE vreal levels_of(const sph_factors *f, vreal filled)
     return level;
 }
 
+/* rows of fluids: 1/S is 1, the level as deep as can be, all else 0 */
+static void load_fluid(const sph_candidates *r, sph_real *to, uint32_t row, uint32_t rows, uint32_t level)
+{
+    for (uint32_t k = 0; k < rows; k++)
+        for (uint32_t j = 0; j < r->n; j += SPH_W)
+            v_store(to + k * row + j, v_set(k == level ? SPH_LEVELS : 0));
+}
 void sph_load_edge(const sph_candidates *r, sph_real *to, uint32_t row)
 {
-    const bool solid = sph_is_solid(r->set);
+    if (!sph_is_solid(r->set)) {
+        load_fluid(r, to, row, SPH_DIM + 2, SPH_DIM + 1);
+        for (uint32_t j = 0; j < r->n; j += SPH_W)
+            v_store(to + j, v_set(1));
+        return;
+    }
     for (uint32_t j = 0; j < r->n; j += SPH_W) {
-        const vreal filled = solid ? v_load(r->b->filled[0] + r->first + j) : v_set(1), u = 1 / filled;
+        const vreal filled = v_load(r->b->filled[0] + r->first + j), u = 1 / filled;
         v_store(to + j, u);
-        for (uint32_t k = 0; k < SPH_DIM; k++) {
-            const vreal d = solid ? v_load(r->b->slant[k] + r->first + j) : v_set(0);
-            v_store(to + (1 + k) * row + j, d * (u * u) * (sph_real)r->im->sign[k]);
-        }
-        v_store(to + (1 + SPH_DIM) * row + j, solid ? levels_of(&r->sim->fac, filled) : v_set(SPH_LEVELS));
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            v_store(to + (1 + k) * row + j,
+                    v_load(r->b->slant[k] + r->first + j) * (u * u) * (sph_real)r->im->sign[k]);
+        v_store(to + (1 + SPH_DIM) * row + j, levels_of(&r->sim->fac, filled));
     }
 }
 void sph_load_drawn(const sph_candidates *r, sph_real *to, uint32_t row)
 {
-    const bool solid = sph_is_solid(r->set);
-    for (uint32_t k = 0; k < SPH_DIM; k++)
-        for (uint32_t j = 0; j < r->n; j += SPH_W) {
-            const vreal drawn = solid ? v_load(r->sim->drawn[k] + r->first + j) : v_set(0);
-            v_store(to + k * row + j, drawn * (sph_real)r->im->sign[k]);
-        }
+    if (!sph_is_solid(r->set)) {
+        load_fluid(r, to, row, SPH_DIM + 1, SPH_DIM);
+        return;
+    }
+    for (uint32_t j = 0; j < r->n; j += SPH_W) {
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            v_store(to + k * row + j, v_load(r->sim->drawn[k] + r->first + j) * (sph_real)r->im->sign[k]);
+        v_store(to + SPH_DIM * row + j, v_load(r->sim->drawn[SPH_DIM] + r->first + j));
+    }
 }
 void sph_load_means(const sph_candidates *r, sph_real *to, uint32_t row)
 {
-    const bool solid = sph_is_solid(r->set);
-    for (uint32_t k = 0; k < SPH_DIM; k++)
-        for (uint32_t j = 0; j < r->n; j++) {
-            const uint32_t i = r->first + j;
-            const sph_real e = solid ? r->sim->row[k][i] - r->sim->mean[k][i] : 0;
-            to[k * row + j] = e * (sph_real)r->im->sign[k];
-            to[(SPH_DIM + k) * row + j] = solid ? (sph_real)(r->sim->tension[i] >> k & 1) : 0;
+    if (!sph_is_solid(r->set)) {
+        load_fluid(r, to, row, 2 * SPH_DIM, 2 * SPH_DIM);
+        return;
+    }
+    for (uint32_t j = 0; j < r->n; j += SPH_W)
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++) {
+            v_store(to + k * row + j, v_load(r->sim->row[k] + r->first + j) * (sph_real)r->im->sign[k]);
+            v_store(to + (SPH_DIM + k) * row + j, v_load(r->sim->tension[k] + r->first + j));
         }
+}
+/* columns of a tile are 0 or 1, and 0 behind the last candidate */
+bool sph_is_drawn(const sph_sim *sim, const sph_thread *t, uint32_t homes)
+{
+    const sph_mean_homes *const own = (const void *)sph_home_columns_of(sim, t, SPH_COLUMN_means);
+    const sph_real *const on = sph_columns_of(sim, t, SPH_COLUMN_means) + SPH_DIM * SPH_TILE_ROOM;
+    vreal most = v_set(0);
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        for (uint32_t h = 0; h < homes; h++)
+            most = v_max(most, v_set(own->on[k][h]));
+        for (uint32_t j = 0; j < t->matter.n; j += SPH_W)
+            most = v_max(most, v_load(on + k * SPH_TILE_ROOM + j));
+    }
+    return v_bits(v_less(v_set(0), most)) != 0;
 }
 
 /* ---- S and D of the first forces ---- */
@@ -110,8 +142,8 @@ const sph_pass sph_pass_edge = {"edge", sph_sweep_chunks, edge_chunk, NULL, stab
 
 typedef struct averaging {
     const sph_edge_tile *edge;
-    const sph_stress_tile *stress;
-    const sph_real *col;
+    const sph_drawn_tile *drawn;
+    const sph_real *sigma;
     vreal level, reach;
     sph_real value_slope;
 } averaging;
@@ -124,16 +156,16 @@ SPH_INLINE void rows_pair(const void *what, uint32_t j, vreal *s)
     sph_gather_distance(g, j, dx);
     const vreal q = v_sqrt(sph_dot(dx, dx)) * g->inv_h, v = v_load(g->tile->m + j) * v_load(g->tile->inv_rho + j);
     const vreal slope = k_slope(g->kernel, q), value = k_value(g->kernel, q) * a->value_slope;
-    const vreal u = slope * v_load(a->edge->u + j);
+    const vreal u = slope * v_load(a->edge->u + j), sv = slope * v;
     const vreal count = sph_stabilised_count(a->reach, q, a->level, v_load(a->edge->level + j), &back);
     const vreal within = (count + back) * (sph_real)0.5;
     s[SUM_EDGE] = s[SUM_EDGE] + value * v;
     s[SUM_COUNT] = s[SUM_COUNT] + count;
     SPH_UNROLL
-    for (int k = 0; k < SPH_DIM; k++) {
-        s[SUM_SLANT + k] = s[SUM_SLANT + k] + slope * v * dx[k];
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        s[SUM_SLANT + k] = s[SUM_SLANT + k] + sv * dx[k];
         s[SUM_DRAWN + k] = s[SUM_DRAWN + k] - (u * dx[k] + value * v_load(a->edge->d[k] + j));
-        s[SUM_SIGMA + k] = s[SUM_SIGMA + k] - within * v_load(a->stress->t[k * (SPH_DIM + 1)] + j);
+        s[SUM_SIGMA + k] = s[SUM_SIGMA + k] + within * v_load(a->sigma + k * SPH_NEAR_ROOM + j);
     }
 }
 SPH_INLINE void mean_pair(const void *what, uint32_t j, vreal *s)
@@ -142,27 +174,34 @@ SPH_INLINE void mean_pair(const void *what, uint32_t j, vreal *s)
     const averaging *const a = g->own;
     vreal dx[SPH_DIM], back;
     sph_gather_distance(g, j, dx);
-    const vreal q = v_sqrt(sph_dot(dx, dx)) * g->inv_h, v = v_load(g->tile->m + j) * v_load(g->tile->inv_rho + j);
-    const vreal count = sph_stabilised_count(a->reach, q, a->level, v_load(a->edge->level + j), &back);
+    const vreal q = v_sqrt(sph_dot(dx, dx)) * g->inv_h;
+    const vreal count = sph_stabilised_count(a->reach, q, a->level, v_load(a->drawn->level + j), &back);
     s[SUM_COUNT] = s[SUM_COUNT] + count;
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++)
-        s[SUM_DRAWN + k] = s[SUM_DRAWN + k] + count * v * v_load(a->col + k * SPH_NEAR_ROOM + j);
+        s[SUM_DRAWN + k] = s[SUM_DRAWN + k] + count * v_load(a->drawn->col[k] + j);
 }
 
 #define ROWS SPH_SUM_MASK(SUM_EDGE, SUM_OF_MEANS)
 #define MEANS (SPH_SUM_MASK(SUM_DRAWN, SPH_DIM) | 1u << SUM_COUNT)
 SPH_INLINE void average(uint32_t kernel, const sph_sim *sim, sph_thread *t, uint32_t homes, bool means)
 {
-    averaging a = {.edge = sph_edge_of(sim, t), .reach = v_set(sim->fac.reach), .value_slope = sim->fac.value_slope};
-    if (means)
-        a.col = sph_near_columns_of(sim, t, SPH_COLUMN_drawn);
-    else
-        a.stress = sph_stress_tile_of(sim, t);
+    averaging a = {.reach = v_set(sim->fac.reach), .value_slope = sim->fac.value_slope};
+    const sph_real *const level = means ? sph_drawn_homes_of(sim, t)->level : sph_edge_homes_of(sim, t)->level;
+    if (means) {
+        a.drawn = sph_drawn_of(sim, t);
+    } else {
+        a.edge = sph_edge_of(sim, t);
+        a.sigma = sph_near_columns_of(sim, t, SPH_COLUMN_diagonal);
+    }
     for (uint32_t h = 0; h < homes; h++) {
-        a.level = v_set(sph_edge_homes_of(sim, t)->level[h]);
+        a.level = v_set(level[h]);
         const sph_gather g = {t, sph_near_of(t, &t->matter), h, kernel, v_set(sim->fac.inv_h), &a};
-        if (means)
+        if (SPH_LISTS && means)
+            sph_sum_listed(sim, t, &t->matter, h, MEANS, mean_pair, &g);
+        else if (SPH_LISTS)
+            sph_sum_listed(sim, t, &t->matter, h, ROWS, rows_pair, &g);
+        else if (means)
             sph_sum_home(sim, t, &t->matter, h, MEANS, mean_pair, &g);
         else
             sph_sum_home(sim, t, &t->matter, h, ROWS, rows_pair, &g);
@@ -187,32 +226,32 @@ static void rows_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     const sph_edge_homes *const edge = sph_edge_homes_of(sim, t);
     const uint32_t i = t->home_at[h];
     const sph_real n = v_fold(t->sum[SUM_COUNT][h]), value = v_fold(t->sum[SUM_EDGE][h]);
-    uint8_t on = 0;
+    const sph_real volume = t->home.m[h] * t->home.inv_rho[h];
+    sim->drawn[SPH_DIM][i] = edge->level[h];
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         const sph_real slope = v_fold(t->sum[SUM_SLANT + k][h]);
         sim->row[k][i] = (slope * edge->u[h] - value * edge->d[k][h]) / n;
-        sim->drawn[k][i] = v_fold(t->sum[SUM_DRAWN + k][h]) / n;
-        if (edge->level[h] > 0 && v_fold(t->sum[SUM_SIGMA + k][h]) > 0)
-            on = (uint8_t)(on | 1u << k);
+        sim->drawn[k][i] = volume * v_fold(t->sum[SUM_DRAWN + k][h]) / n;
+        sim->tension[k][i] = edge->level[h] > 0 && v_fold(t->sum[SUM_SIGMA + k][h]) > 0;
     }
-    sim->tension[i] = on;
 }
+/* row becomes row - mean */
 static void mean_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     const uint32_t i = t->home_at[h];
     const sph_real n = v_fold(t->sum[SUM_COUNT][h]);
     for (uint32_t k = 0; k < SPH_DIM; k++)
-        sim->mean[k][i] = v_fold(t->sum[SUM_DRAWN + k][h]) / n;
+        sim->row[k][i] -= v_fold(t->sum[SUM_DRAWN + k][h]) / n;
 }
 static void rows_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {stabilised_home, SPH_MATTER,  ROWS, true, 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_stress,
+    const sph_sweep w = {stabilised_home, SPH_MATTER,  ROWS, true, 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_diagonal,
                          rows_tile,       rows_finish, 0,    0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }
 static void mean_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const sph_sweep w = {stabilised_home, SPH_MATTER,  MEANS, true, 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_drawn,
+    const sph_sweep w = {stabilised_home, SPH_MATTER,  MEANS, false, 1u << SPH_COLUMN_drawn,
                          mean_tile,       mean_finish, 0,     0};
     sph_sweep_chunk(sim, &w, chunk, t);
 }

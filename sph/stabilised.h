@@ -22,10 +22,13 @@
 
 #include "stress.h"
 
-/* rows of column sets: what is fixed with the first forces; col/V; row - mean, and what is on */
+/* rows of column sets: what is fixed with the first forces; col and the level; row - mean, and what is on */
 #define SPH_EDGE_ROWS(n)                                                                                           \
     sph_real u[n];          /* 1/S */                                                                              \
     sph_real d[SPH_DIM][n]; /* D/S^2 (1/m) */                                                                      \
+    sph_real level[n]
+#define SPH_DRAWN_ROWS(n)                                                                                          \
+    sph_real col[SPH_DIM][n];                                                                                      \
     sph_real level[n]
 #define SPH_MEAN_ROWS(n)                                                                                           \
     sph_real e[SPH_DIM][n];                                                                                        \
@@ -36,6 +39,12 @@ typedef struct sph_edge_tile {
 typedef struct sph_edge_homes {
     SPH_EDGE_ROWS(SPH_HOME_ROOM);
 } sph_edge_homes;
+typedef struct sph_drawn_tile {
+    SPH_DRAWN_ROWS(SPH_NEAR_ROOM);
+} sph_drawn_tile;
+typedef struct sph_drawn_homes {
+    SPH_DRAWN_ROWS(SPH_HOME_ROOM);
+} sph_drawn_homes;
 typedef struct sph_mean_tile {
     SPH_MEAN_ROWS(SPH_NEAR_ROOM);
 } sph_mean_tile;
@@ -51,9 +60,8 @@ void sph_load_means(const sph_candidates *r, sph_real *to, uint32_t row);
 
 /* what candidates and homes bring */
 typedef struct sph_stabilised_near {
-    const sph_edge_tile *edge;
+    const sph_drawn_tile *drawn;
     const sph_mean_tile *mean;
-    const sph_real *col;
 } sph_stabilised_near;
 typedef struct sph_stabilised_home {
     vreal level, col[SPH_DIM], e[SPH_DIM], on[SPH_DIM];
@@ -68,23 +76,32 @@ SPH_INLINE const sph_edge_homes *sph_edge_homes_of(const sph_sim *sim, const sph
 {
     return (const sph_edge_homes *)(const void *)sph_home_columns_of(sim, t, SPH_COLUMN_edge);
 }
+SPH_INLINE const sph_drawn_tile *sph_drawn_of(const sph_sim *sim, const sph_thread *t)
+{
+    return (const sph_drawn_tile *)(const void *)sph_near_columns_of(sim, t, SPH_COLUMN_drawn);
+}
+SPH_INLINE const sph_drawn_homes *sph_drawn_homes_of(const sph_sim *sim, const sph_thread *t)
+{
+    return (const sph_drawn_homes *)(const void *)sph_home_columns_of(sim, t, SPH_COLUMN_drawn);
+}
 SPH_INLINE sph_stabilised_near sph_stabilised_of(const sph_sim *sim, const sph_thread *t)
 {
-    return (sph_stabilised_near){sph_edge_of(sim, t),
-                                 (const sph_mean_tile *)(const void *)sph_near_columns_of(sim, t, SPH_COLUMN_means),
-                                 sph_near_columns_of(sim, t, SPH_COLUMN_drawn)};
+    return (sph_stabilised_near){sph_drawn_of(sim, t),
+                                 (const sph_mean_tile *)(const void *)sph_near_columns_of(sim, t, SPH_COLUMN_means)};
 }
+/* whether anybody in a tile, or a home, is on */
+#define sph_is_drawn SPH_NAME(is_drawn_)
+bool sph_is_drawn(const sph_sim *sim, const sph_thread *t, uint32_t homes);
 SPH_INLINE sph_stabilised_home sph_spread_stabilised(const sph_sim *sim, const sph_thread *t, uint32_t h)
 {
-    const sph_edge_homes *const edge = sph_edge_homes_of(sim, t);
+    const sph_drawn_homes *const drawn = sph_drawn_homes_of(sim, t);
     const sph_mean_homes *const mean = (const void *)sph_home_columns_of(sim, t, SPH_COLUMN_means);
-    const sph_real *const col = sph_home_columns_of(sim, t, SPH_COLUMN_drawn);
     sph_stabilised_home o;
-    o.level = v_set(edge->level[h]);
+    o.level = v_set(drawn->level[h]);
     o.each = v_set(t->home.rho[h] / t->home.m[h]);
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++) {
-        o.col[k] = v_set(col[k * SPH_HOME_ROOM + h]);
+        o.col[k] = v_set(drawn->col[k][h]);
         o.e[k] = v_set(mean->e[k][h]);
         o.on[k] = v_set(mean->on[k][h]);
     }
@@ -109,11 +126,12 @@ SPH_INLINE void sph_stabilised_push(const sph_choice *c, const sph_factors *f, c
     const uint32_t j = p->j;
     const vreal m = v_load(p->tile->m + j), each = h->each * m;
     vreal back, half = v_set((sph_real)0.5) * w, own[SPH_DIM], other[SPH_DIM];
-    const vreal count = sph_stabilised_count(v_set(f->reach), p->q, h->level, v_load(n->edge->level + j), &back);
+    const vreal count = sph_stabilised_count(v_set(f->reach), p->q, h->level, v_load(n->drawn->level + j), &back);
+    const vreal by = count * p->rho, from = back * each;
     SPH_UNROLL
     for (uint32_t l = 0; l < SPH_DIM; l++) {
-        own[l] = count * (p->rho * h->e[l] + m * v_load(n->col + l * SPH_NEAR_ROOM + j));
-        other[l] = back * (each * v_load(n->mean->e[l] + j) + m * h->col[l]);
+        own[l] = by * (h->e[l] + v_load(n->drawn->col[l] + j));
+        other[l] = from * (v_load(n->mean->e[l] + j) + h->col[l]);
     }
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {

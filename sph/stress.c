@@ -123,6 +123,23 @@ SPH_INLINE void weigh(vreal phi, vreal *t)
         t[k] = t[k] * phi;
 }
 
+#if SPH_HAS_STABILISED
+/* the normal stresses along the axes, which look the same in every image */
+void sph_load_diagonal(const sph_candidates *r, sph_real *to, uint32_t row)
+{
+    const bool matched = SPH_HAS_EDGES && r->sim->layer[0];
+    for (uint32_t j = 0; j < r->n; j += SPH_W) {
+        vreal s[SPH_NT];
+        stress_at(r, r->first + j, v_load(r->b->rho[0] + r->first + j), s);
+        for (uint32_t k = 0; k < SPH_DIM && matched; k++)
+            s[k] = s[k] + v_load(r->sim->layer[k * (SPH_DIM + 1)] + r->first + j);
+        SPH_UNROLL
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            v_store(to + k * row + j, s[k]);
+    }
+}
+#endif
+
 void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row)
 {
     const sph_config *c = &r->sim->cfg;

@@ -32,6 +32,8 @@ SPH_INLINE const sph_stress_homes *sph_stress_homes_of(const sph_sim *sim, const
 }
 #define sph_load_stress SPH_NAME(load_stress_)
 void sph_load_stress(const sph_candidates *r, sph_real *to, uint32_t row);
+#define sph_load_diagonal SPH_NAME(load_diagonal_)
+void sph_load_diagonal(const sph_candidates *r, sph_real *to, uint32_t row);
 /* stress.c: L of a home from its sums, with corrected gradients or without; raw: sum m_j v_ij (x) K g without the
    kernel's scale */
 #define sph_velocity_gradient SPH_NAME(velocity_gradient_)

@@ -139,6 +139,8 @@ SPH_APART void load_any(const sph_candidates *r, sph_tile *t, sph_real least, bo
     X(wall_diffusive, TAIT, true, true, true, true, false)                                                         \
     X(linear, LINEAR, false, false, true, false, false)                                                            \
     X(linear_homes, LINEAR, false, false, true, false, true)                                                       \
+    X(linear_volume, LINEAR, false, true, true, false, false)                                                      \
+    X(linear_volume_homes, LINEAR, false, true, true, false, true)                                                 \
     X(rates, TAIT, false, false, false, false, false)                                                              \
     X(rates_homes, TAIT, false, false, false, false, true)                                                         \
     X(rates_diffusive, TAIT, false, true, false, false, false)                                                     \

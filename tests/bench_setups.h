@@ -91,7 +91,8 @@ static inline tank fill(uint32_t n, port_posix *pool, sph_stage_log log, void *l
 
 /* a free block, slightly jittered and moving: water (form SPH_NO_SOLID) or a solid in tension here and there; room: of
    the domain, on each side, in spacings */
-static inline tank block_in(double room, uint32_t n, uint32_t form, uint32_t repulsion, bool brittle)
+static inline tank block_as(double room, uint32_t n, uint32_t form, uint32_t repulsion, bool brittle,
+                            void (*change)(sph_config *))
 {
     sph_config c = sph_config_default();
     tank t;
@@ -113,6 +114,8 @@ static inline tank block_in(double room, uint32_t n, uint32_t form, uint32_t rep
     c.damage = brittle ? SPH_BENZ_ASPHAUG : SPH_NO_DAMAGE;
     c.max_flaws = 1;
     m.shear = 0.22;
+    if (change)
+        change(&c);
     t.bytes = sph_arena_bytes(&c);
     t.arena = aligned_alloc(SPH_ALIGN, (t.bytes + 63) / 64 * 64);
     check(NULL, t.arena ? sph_init(&t.sim, &c, t.arena, t.bytes, NULL) : SPH_ARENA_TOO_SMALL, "init");
@@ -129,6 +132,11 @@ static inline tank block_in(double room, uint32_t n, uint32_t form, uint32_t rep
     check(t.sim, sph_ready(t.sim), "ready");
     t.particles = n * n;
     return t;
+}
+
+static inline tank block_in(double room, uint32_t n, uint32_t form, uint32_t repulsion, bool brittle)
+{
+    return block_as(room, n, form, repulsion, brittle, NULL);
 }
 
 static inline tank block(uint32_t n, uint32_t form, uint32_t repulsion, bool brittle)

@@ -3,7 +3,7 @@
    made: of every particle, walls too, after each step. Compiled for each build.
 
      count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
-                            total: its block of a solid; default, no_books, large_eddies, shifting: the scene dam_break
+                            total: its block of a solid; plain, stabilised: that block as Powell's (2012) have it; default, no_books, large_eddies, shifting: the scene dam_break
                             or dam_break_3d as it is, without books, with large eddies, with its particles shifted */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
@@ -16,6 +16,14 @@ static void correct(sph_config *c)
 #else
     (void)c;
 #endif
+}
+
+/* kernel and smoothing length of Powell 2012 section 4.4, integrator of the scenes */
+static void as_powell(sph_config *c)
+{
+    c->kernel = SPH_CUBIC;
+    c->smoothing_length = 1.3;
+    c->integrator = SPH_KICK_DRIFT_KICK;
 }
 
 static void large_eddies(double *p)
@@ -64,8 +72,8 @@ int main(int argc, char **argv)
     unsigned long long done = 0;
     tank t;
     if (argc != 4) {
-        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting|damper "
-                        "N STEPS\n");
+        fprintf(stderr, "usage: count bench|corrected|elastic|total|plain|stabilised|default|no_books|large_eddies|"
+                        "shifting|damper N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);
@@ -77,6 +85,12 @@ int main(int argc, char **argv)
         t = block(n, SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, false);
     else if (strcmp(argv[1], "total") == 0)
         t = block(n, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, false);
+    else if (strcmp(argv[1], "plain") == 0)
+        t = block_as(5, n, SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, false, as_powell);
+#ifdef SPH_HAS_STABILISED /* as above */
+    else if (strcmp(argv[1], "stabilised") == 0)
+        t = block_as(5, n, SPH_STABILISED, SPH_NO_ARTIFICIAL_STRESS, false, as_powell);
+#endif
     else
         t = scene_tank(dam_break, n, argv[1]);
     for (uint32_t k = 0; k < steps; k++) {

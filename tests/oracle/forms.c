@@ -96,15 +96,14 @@ static void rows_of(o_scene *s, o_particle *i)
         if (!o_is_body(s, j) || !o_pair_of(s, i, j, &p))
             continue;
         const double count = count_of(s, i, j, &p), back = count_of(s, j, i, &p);
-        const double w = o_is_weak(s) ? 1 : 1 / (j->rho * j->rho);
         n += count;
         i->row_scale += p.volume * magnitude_at(i, &p);
         i->drawn_scale += magnitude_at(j, &p);
         for (int k = 0; k < SPH_DIM; k++) {
             i->row[k] += p.volume * gradient_at(i, &p, k, 1);
             i->drawn[k] += gradient_at(j, &p, k, -1);
-            sigma[k] += 0.5 * (count + back) * w * j->sigma[k][k];
-            size[k] += 0.5 * (count + back) * w * (fabs(j->sigma[k][k]) + fabs(j->p));
+            sigma[k] += 0.5 * (count + back) * j->sigma[k][k];
+            size[k] += 0.5 * (count + back) * (fabs(j->sigma[k][k]) + fabs(j->p));
         }
     }
     i->row_scale /= n;
