@@ -251,7 +251,7 @@ TEST_BUILDS ?= 1d 2f 2d 3f
 builds_of = $(or $(builds_$(1)),2f 2d)
 # the stability atlas (tests/lab): one program of parts from several builds
 atlas_obj := $(patsubst %,$(BUILD)/obj/%.o,$(patsubst %,1d/tests/lab/%,atlas_tension atlas_sponge box) \
-	$(patsubst %,2d/tests/lab/%,atlas_courant atlas_swegle atlas_water box theory precision_run) \
+	$(patsubst %,2d/tests/lab/%,atlas_courant atlas_swegle atlas_forms atlas_water box theory precision_run) \
 	$(patsubst %,2f/tests/lab/%,atlas_walls box precision_run) $(patsubst %,tests/lab/%,atlas_names atlas_precision) \
 	tools/dispersion)
 atlas_libs := $(BUILD)/libsph1d.a $(BUILD)/libsph2f.a

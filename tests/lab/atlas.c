@@ -9,7 +9,7 @@
 static const atlas_table tables[] = {
     {"courant", atlas_courant},     {"swegle", atlas_swegle}, {"tension", atlas_tension}, {"pairing", atlas_pairing},
     {"repulsion", atlas_repulsion}, {"water", atlas_water},   {"tank", atlas_tank},       {"leak", atlas_leak},
-    {"precision", atlas_precision}, {"sponge", atlas_sponge},
+    {"precision", atlas_precision}, {"sponge", atlas_sponge}, {"forms", atlas_forms_of_solids},
 };
 enum { TABLES = sizeof tables / sizeof *tables };
 

@@ -18,6 +18,7 @@ void atlas_courant(FILE *f), atlas_swegle(FILE *f), atlas_tension(FILE *f), atla
     atlas_repulsion(FILE *f);
 void atlas_water(FILE *f), atlas_tank(FILE *f), atlas_leak(FILE *f), atlas_precision(FILE *f);
 void atlas_sponge(FILE *f);
+void atlas_forms_of_solids(FILE *f);
 
 /* the header every table has; "" lines are left out */
 void atlas_head(FILE *f, const char *table, const char *title, const char *figures, const char *columns);
@@ -36,7 +37,7 @@ double courant_theory(const courant_case *c);
 /* ---- growth in squares: see atlas_swegle.c ---- */
 typedef struct growth_case {
     uint32_t form, kernel, lattice, n, exponent;
-    double h, mu, volume, epsilon;
+    double h, mu, volume, epsilon, xsph; /* xsph: of the velocity itself; such cases have no theory */
 } growth_case;
 double growth_measured(const growth_case *c, double end);
 double growth_theory(const growth_case *c);

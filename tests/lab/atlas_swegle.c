@@ -33,7 +33,8 @@ growth_case growth_sided(growth_case c, uint32_t least)
 static box_solid solid_of(const growth_case *c)
 {
     const box_solid b = {.form = c->form, .kernel = c->kernel, .lattice = c->lattice, .n = c->n, .h = c->h, .mu = c->mu,
-                         .volume = c->volume, .epsilon = c->epsilon, .exponent = c->exponent, .dt = 0.2};
+                         .volume = c->volume, .epsilon = c->epsilon, .exponent = c->exponent, .dt = 0.2,
+                         .xsph = c->xsph};
     return b;
 }
 

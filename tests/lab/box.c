@@ -223,6 +223,8 @@ sph_sim *box_make_solid(const box_solid *b, uint32_t *set, void **arena)
         c.viscosity = SPH_ARTIFICIAL;
         c.alpha = b->alpha;
     }
+    c.xsph = b->xsph;
+    c.xsph_velocity = b->xsph > 0;
     if (b->epsilon > 0) {
         c.artificial_stress = SPH_PRINCIPAL;
         c.stress_epsilon = b->epsilon;

@@ -53,7 +53,7 @@ double box_ratio(sph_sim *sim, uint32_t steps);
 /* the square of a solid under volume strain V/V0 at density 1 (see theory.h), at rest */
 typedef struct box_solid {
     uint32_t form, kernel, lattice, n;
-    double h, mu, volume, epsilon, alpha, dt;
+    double h, mu, volume, epsilon, alpha, dt, xsph; /* xsph: factor of XSPH that smooths the velocity itself */
     uint32_t exponent;
 } box_solid;
 #define box_make_solid SPH_NAME(box_make_solid)

@@ -259,9 +259,26 @@ def interpolation_case(name, head, rows):
     return finish(chart, name, head)
 
 
+# ---- forms of solids ----
+
+def forms(name, head, rows):
+    chart = start(name, head, "Swegle test of the forms of solids: growth rate over volume")
+    x = Axis([num(r, "volume") for r in rows])
+    for xsph in one(rows, "xsph"):
+        mine = [r for r in rows if r["xsph"] == xsph]
+        y = Axis([0] + [num(r, "measured") for r in rows])
+        p = chart.panel(220, "volume V/V0", "growth rate, c0/dx", x, y, right=160, title=f"xsph {xsph}")
+        for i, form in enumerate(one(mine, "form")):
+            rs = [r for r in mine if r["form"] == form]
+            p.line([num(r, "volume") for r in rs], [num(r, "measured") for r in rs], i, form.replace("_", " "),
+                   size=0.6)
+    return finish(chart, name, head)
+
+
 FIGURES = "case choice x figure value unit"
 TABLES = (("atlas_courant", courant, "medium scheme integrator kernel h measured theory ratio"),
           ("atlas_swegle", swegle, "form volume h measured theory"),
+          ("atlas_forms", forms, "form xsph volume measured theory"),
           ("atlas_tension", tension, "kernel h cholesky running"),
           ("atlas_pairing", pairing, "kernel h rho measured theory nearest"),
           ("atlas_repulsion", repulsion, "epsilon exponent h lambda measured theory"),

@@ -43,6 +43,8 @@ ATLAS = (
      "Largest stable Courant number of every integrator, scheme and smoothing kernel: runs against linear theory."),
     ("atlas_swegle", "Where pushes grow",
      "Growth of a tiny push over volume strain and h/dx, in runs and by linear theory. White is stable."),
+    ("atlas_forms", "Where pushes grow, by form",
+     "The same push in every form of solids at h 1.3 dx, with and without smoothed velocities."),
     ("atlas_tension", "How far a chain can be stretched",
      "Critical stretch of thirty particles, by Cholesky and by running the code."),
     ("atlas_pairing", "Pairing in compression",
