@@ -2,11 +2,11 @@
 /* atlas_forms.c: the Swegle test (atlas_swegle.c) of every form of solids, at Powell's smoothing length of 1.3 spacings
    (2012, section 4.2.2), with and without XSPH that smooths the velocity itself by 0.1 (his eq 2.71).
 
-   Theory of normalised kernels: none grows. Their gradient of a constant is 0 wherever particles are, so a uniform
-   stress leaves a wave's acceleration alone: with D~ the sums' gradient, sum m_j (T_i + T_j) grad W~ is
-   D~(rho dT) + T D~(d rho) + d(rho) ... = D~(d sigma)/rho to first order, and D~ of the velocity makes d sigma, so
-   w^2 is the modulus over rho times |D~|^2, never below 0. The stabilised form's pairs are made antisymmetric, and XSPH
-   takes a share of a velocity at each step: no theory is at hand for them. */
+   Theory of normalised kernels: none grows. With D f = sum V_j f_j grad W~, which is 0 of a constant wherever particles
+   are, and T = sigma/rho^2, the acceleration sum m_j (T_i + T_j) grad W~ is D(rho T) + T D(rho); of a wave on a uniform
+   stress that is D(d sigma)/rho to first order, whatever the stress, and D of the velocity makes d sigma, so w^2 is a
+   modulus over rho times |D|^2, never below 0. The stabilised form's pairs are made antisymmetric, and XSPH takes a
+   share of a velocity at each step: no theory is at hand for them. */
 #include "atlas.h"
 
 #include "sph/sph.h"
