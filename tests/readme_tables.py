@@ -135,7 +135,8 @@ def main():
             skipping = True
             seen.append(m[1])
     if skipping or sorted(seen) != sorted(makers):
-        sys.exit("readme_tables.py: README.md has the tables %s; wanted are %s, each with its end" % (seen, list(makers)))
+        sys.exit("readme_tables.py: README.md has the tables %s; wanted are %s, each with its end" %
+                 (seen, list(makers)))
     if words:
         open("README.md", "w").write("\n".join(now))
     elif now != was:
