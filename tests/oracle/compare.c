@@ -114,7 +114,7 @@ static void compare_forces(const o_scene *s)
 static void compare_momentum(const o_scene *s)
 {
     const sph_config *c = &s->cfg;
-    bool alone = c->scheme != SPH_DIRECT && !o_normalises(s) && c->edge == SPH_NO_EDGE; /* layers push */
+    bool alone = c->scheme != SPH_DIRECT && !c->max_flows && !o_normalises(s) && c->edge == SPH_NO_EDGE; /* layers push */
     o_sum force[3] = {{0, 0}}, turn[3] = {{0, 0}};
     for (int k = 0; k < SPH_DIM; k++)
         alone &= c->face[k][0] == SPH_OPEN && c->face[k][1] == SPH_OPEN;
@@ -416,11 +416,15 @@ static void compare_the_gone(const sph_sim *sim, const o_scene *s)
     check("particles that left", SPH_NO_PARTICLE, 0, info.left, (o_sum){s->left, 0}, 0);
     check("particles in walls", SPH_NO_PARTICLE, 0, info.crossed, (o_sum){s->crossed, 0}, 0);
     check("particles put back", SPH_NO_PARTICLE, 0, info.put_back, (o_sum){s->put_back, 0}, 0);
+    const double one = (double)s->n * s->cfg.rho0 * pow(s->cfg.spacing, SPH_DIM);
+    check("removed mass", SPH_NO_PARTICLE, 0, t.removed_mass, s->removed_mass, one);
+    check("added mass", SPH_NO_PARTICLE, 0, t.added_mass, s->added_mass, 0);
     if (!s->cfg.books || missed)
         return;
+    check("fed", SPH_NO_PARTICLE, 0, t.fed, near(s->fed.v, heat_of(s) + s->fed.s, 0), 0);
     const double heat = heat_of(s) + s->carried_off.s + s->put_back_loss.s;
     check("put back's book", SPH_NO_PARTICLE, 0, t.put_back_loss, near(s->put_back_loss.v, heat, 0), 0);
-    if (s->left == 0 || !(rk || s->cfg.xsph > 0))
+    if (s->left == s->let_out || !(rk || s->cfg.xsph > 0))
         check("carried off", SPH_NO_PARTICLE, 0, t.carried_off, near(s->carried_off.v, heat, 0), 0);
 }
 
@@ -433,6 +437,7 @@ static void compare_trajectories(const sph_sim *sim, const o_scene *s)
         const o_set *set = &s->set[p->set];
         const seen *k = &kernel[p->id];
         const bool body = o_is_body(s, p);
+        check("set after steps", p->id, 0, k->set, (o_sum){p->set, 0}, 0);
         for (uint32_t c = 0; c < SPH_DIM; c++) {
             check("place after steps", p->id, c, k->x[c], near(p->x[c], s->cfg.spacing, spread.x), 0);
             if (body)
@@ -462,6 +467,9 @@ static void compare_trajectories(const sph_sim *sim, const o_scene *s)
     if (s->cfg.xsph_velocity)
         check("book of evening", SPH_NO_PARTICLE, 0, t.evened,
               near(s->evened.v, s->evened.s + heat_of(s), spread.evened), 0);
+    if (s->cfg.books)
+        check("work of walls and flows", SPH_NO_PARTICLE, 0, t.wall_work,
+              near(s->wall_work.v, s->wall_work.s + heat_of(s), spread.worked), 0);
     if (s->cfg.shifting > 0)
         check("book of shifting", SPH_NO_PARTICLE, 0, t.shifted,
               near(s->shifted.v, s->shifted.s + heat_of(s), spread.shifted), 0);
@@ -495,22 +503,62 @@ static void compare_ends(const sph_sim *sim, const o_scene *start, o_scene *s, u
         s->undecided = "rounding errors that grow without bound";
 }
 
+/* Who was born in a step has one of its new ids, nobody says which: those of the oracle go to where the kernel has
+   them. */
+static void match_newcomers(const sph_sim *sim, o_scene *s)
+{
+    look_results(sim, kernel, 4096);
+    for (uint32_t i = 0; i < s->n; i++)
+        for (uint32_t j = i + 1; s->own[i].born && j < s->n; j++) {
+            o_particle *a = &s->own[i], *b = &s->own[j];
+            double stay = 0, swap = 0;
+            for (int k = 0; k < SPH_DIM; k++) {
+                const double x = kernel[a->id].x[k], y = kernel[b->id].x[k];
+                stay += pow(a->x[k] - x, 2) + pow(b->x[k] - y, 2);
+                swap += pow(a->x[k] - y, 2) + pow(b->x[k] - x, 2);
+            }
+            if (b->born && kernel[a->id].there && kernel[b->id].there && swap < stay) {
+                const uint32_t id = a->id;
+                a->id = b->id;
+                b->id = id;
+            }
+        }
+}
+
+/* a step of a spacing's share where flows go, at the limits at most; else small */
+static double step_of(const plan *p, const o_scene *s)
+{
+    const double most = 10 * small_step(s);
+    return p->flows ? o_min(most, p->way * p->cfg.spacing / p->flow[0].is.speed) : most / 10;
+}
+
 static sph_status run_steps(sph_sim *sim, const plan *p, o_scene *s)
 {
     static o_scene start;
     sph_status st = SPH_OK;
     look_scene(sim, p, s);
     o_forces(s);
-    const double dt = small_step(s);
+    const double dt = step_of(p, s);
+    bool goes = true;
     s->cfg.dt = dt;
     looked_at = sim;
     o_keep(&start, s);
     st = sph_reconfigure(sim, &s->cfg);
     o_begin_steps(s, s->n);
-    for (uint32_t k = 1; !st && k <= p->steps && !s->undecided; k++) {
+    for (uint32_t k = 1; !st && goes && k <= p->steps && !s->undecided; k++) {
         st = sph_step(sim);
-        o_step(s, k, dt, flaws_of);
+        goes = o_step(s, k, dt, flaws_of);
+        if (p->flows && goes && !st)
+            match_newcomers(sim, s);
     }
+    if (!s->undecided && goes == (st == SPH_TOO_MANY_PARTICLES))
+        check("room", SPH_NO_PARTICLE, 0, st, (o_sum){goes ? SPH_OK : SPH_TOO_MANY_PARTICLES, 0}, 0);
+    if (!goes) {
+        check("particles needed", SPH_NO_PARTICLE, 0, sph_last(sim)->value, exact(s->needed), 0);
+        return SPH_OK;
+    }
+    if (st == SPH_TOO_MANY_PARTICLES)
+        return SPH_OK;
     if (!st && !s->undecided)
         compare_ends(sim, &start, s, p->steps, dt);
     return st;
@@ -533,6 +581,7 @@ static verdict compare(const plan *p, const char **why)
         *why = sph_status_text(sph_last(sim)->status);
         return PLAN_REFUSED;
     }
+    o_straighten(&scene);
     o_refresh(&scene);
     o_yield(&scene);
     if (scene.cfg.density == SPH_SUMMATION)
