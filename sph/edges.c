@@ -261,7 +261,8 @@ const sph_pass sph_pass_layer_stress = {"layer stress", sph_local_chunks, layer_
 /* the sums of d, of products of two, of all three */
 static void damping_of(const sph_edge_mark *m, double *d)
 {
-    const double x = m->damp[0], y = SPH_DIM > 1 ? m->damp[SPH_DIM > 1] : 0, z = SPH_DIM > 2 ? m->damp[SPH_DIM - 1] : 0;
+    const double x = (double)m->damp[0], y = SPH_DIM > 1 ? (double)m->damp[SPH_DIM > 1] : 0;
+    const double z = SPH_DIM > 2 ? (double)m->damp[SPH_DIM - 1] : 0;
     d[0] = x + y + z;
     d[1] = x * y + x * z + y * z;
     d[2] = x * y * z;

@@ -60,7 +60,7 @@ static void finish_powers(sph_sim *sim, const sph_thread *t, uint32_t h,
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         if (SPH_HAS_FORCE_WALLS && sim->has_force_wall)
             in -= t->sum[SUM_BOUNDARY][h][k] * t->home.v[k][h];
-        if (sph_drifts(&sim->cfg) && !(sph_held(sim, set) >> k & 1) && !sph_flow_of(sim, set))
+        if (sph_drifts(&sim->cfg))
             lost += f->gravity[k] * sim->buf[sim->dst].xsph[k][i];
     }
     if (SPH_HAS_LAYERED_WALLS)
@@ -87,10 +87,10 @@ static void finish_extras(sph_sim *sim, sph_thread *t, uint32_t h, sph_real *acc
     const sph_factors *f = &sim->fac;
     const sph_config *c = &sim->cfg;
     const sph_buffer *b = &sim->buf[sim->dst];
-    const uint32_t i = t->home_at[h];
+    const uint32_t i = t->home_at[h], still = sph_undrifting(sim, &sim->set[t->home_set[h]]);
     sph_real body_power = 0;
     for (uint32_t k = 0; sph_uses_xsph(c) && !sph_smooths_strain(c) && k < SPH_DIM; k++)
-        b->xsph[k][i] = v_fold(t->sum[SUM_XSPH + k][h]) * (f->value * (sph_real)(2 * c->xsph));
+        b->xsph[k][i] = still >> k & 1 ? 0 : v_fold(t->sum[SUM_XSPH + k][h]) * (f->value * (sph_real)(2 * c->xsph));
     for (uint32_t k = 0; SPH_HAS_FORCE_WALLS && sim->has_force_wall && k < SPH_DIM; k++)
         acc[k] += t->sum[SUM_BOUNDARY][h][k];
     if (SPH_WITH_BODY_FORCE && c->body_force)
@@ -123,8 +123,6 @@ static void apply_constraint(sph_sim *sim, const sph_set *set, uint32_t i, sph_r
         if (sph_keeps_books(&sim->cfg))
             sim->power[POWER_WALL][i] -= acc[k] * (sph_real)sph_wall_velocity(sim, set, k);
         acc[k] = 0;
-        if (sph_uses_xsph(&sim->cfg))
-            sim->buf[sim->dst].xsph[k][i] = 0;
     }
 }
 
@@ -139,8 +137,6 @@ static void carry_along(sph_sim *sim, const sph_thread *t, uint32_t h, sph_real 
     for (uint32_t k = 0; k < SPH_DIM; k++) {
         power += acc[k] * t->home.v[k][h];
         acc[k] = 0;
-        if (sph_uses_xsph(&sim->cfg))
-            b->xsph[k][i] = 0;
     }
     if (sph_keeps_books(&sim->cfg))
         sim->power[POWER_WALL][i] -= power;

@@ -550,6 +550,11 @@ SPH_INLINE uint32_t sph_held(const sph_sim *sim, const sph_set *s)
         return 0;
     return sph_material_of(sim, s)->held;
 }
+/* axes along which XSPH moves nothing of a set: those on which it is held; all of them where a flow carries it */
+SPH_INLINE uint32_t sph_undrifting(const sph_sim *sim, const sph_set *s)
+{
+    return sph_flow_of(sim, s) ? (1u << SPH_DIM) - 1 : sph_held(sim, s);
+}
 /* whether sums are of rates in the middle of the step; whether they are of rates, of forces: of both, where an
    integrator has one sweep for them */
 SPH_INLINE bool sph_in_middle(const sph_sim *sim) { return SPH_HAS_RATES_FIRST && sim->middle; }

@@ -66,10 +66,10 @@ static void smooth_tile(const sph_sim *sim, sph_thread *t, uint32_t homes, uint3
 
 static void smooth_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
-    const uint32_t i = t->home_at[h], held = sph_held(sim, &sim->set[t->home_set[h]]);
+    const uint32_t i = t->home_at[h], still = sph_undrifting(sim, &sim->set[t->home_set[h]]);
     const sph_real scale = sim->fac.value * (sph_real)(2 * sim->cfg.xsph);
     for (uint32_t k = 0; k < SPH_DIM; k++)
-        smoothed(sim, &sim->buf[sim->dst], k)[i] = held >> k & 1 ? 0 : v_fold(t->sum[k][h]) * scale;
+        smoothed(sim, &sim->buf[sim->dst], k)[i] = still >> k & 1 ? 0 : v_fold(t->sum[k][h]) * scale;
 }
 
 static void smooth_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)

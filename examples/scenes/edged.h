@@ -14,7 +14,8 @@
 enum { EDGED_EDGE, EDGED_LAYER, EDGED_LAYERS, EDGED_REFLECTION, EDGED_SHIFT, EDGED_PARAMS };
 #define EDGED_PARAM_ROWS(edge_, layer_, reflection_)                                                                  \
     {"edge", "-", "edge: none natural viscous p m m_printed h h_printed", edge_, 0, SPH_EDGES - 1, SCENE_CHOICE},     \
-    {"layer", "dx", "thickness of the matched layer beside natural and viscous edges; 0: none", layer_, 0, 200, SCENE_NUMBER},                         \
+    {"layer", "dx", "thickness of the matched layer beside natural and viscous edges; 0: none", layer_, 0, 200,        \
+     SCENE_NUMBER},                                                                                                   \
     {"layers", "-", "layers of particles in which P, M, H hold; 0: as many as the kernel reaches, and one", 0, 0, 64,  \
      SCENE_WHOLE},                                                                                                    \
     {"reflection", "-", "what the matched layer is made for", reflection_, 1e-9, 0.5, SCENE_NUMBER},                  \
