@@ -114,7 +114,7 @@ static void compare_forces(const o_scene *s)
 static void compare_momentum(const o_scene *s)
 {
     const sph_config *c = &s->cfg;
-    bool alone = c->scheme != SPH_DIRECT && !c->max_flows && !o_normalises(s) && c->edge == SPH_NO_EDGE; /* layers push */
+    bool alone = c->scheme != SPH_DIRECT && !o_normalises(s) && !c->max_flows && c->edge == SPH_NO_EDGE;
     o_sum force[3] = {{0, 0}}, turn[3] = {{0, 0}};
     for (int k = 0; k < SPH_DIM; k++)
         alone &= c->face[k][0] == SPH_OPEN && c->face[k][1] == SPH_OPEN;

@@ -13,7 +13,8 @@
 void o_quiet(const o_scene *s, o_particle *i, double rate)
 {
     const o_set *set = &s->set[i->set];
-    i->quiet = o_is_body(s, i) && !o_is_carried(s, i) ? s->cfg.damper * s->cfg.smoothing_length * set->c0 * set->rho0 * rate : 0;
+    const bool acts = o_is_body(s, i) && !o_is_carried(s, i);
+    i->quiet = acts ? s->cfg.damper * s->cfg.smoothing_length * set->c0 * set->rho0 * rate : 0;
 }
 
 void o_book_quiet(o_scene *s, const o_particle *i, double middle, double dt)

@@ -139,7 +139,7 @@ void o_change_sets(o_scene *s)
 }
 
 /* what holds a particle, after its sums; `rate`: d(rho)/dt that it would have */
-void o_carry_along(const o_scene *s, o_particle *i, o_sum rate)
+void o_carry_along(o_particle *i, o_sum rate)
 {
     const double per = i->p / (i->rho * i->rho);
     o_add(&i->worked, -per * rate.v, fabs(per) * rate.s);
@@ -147,7 +147,6 @@ void o_carry_along(const o_scene *s, o_particle *i, o_sum rate)
         o_add(&i->worked, -i->a[k].v * i->v[k], i->a[k].s * fabs(i->v[k]));
         i->a[k] = i->drift[k] = (o_sum){0, 0};
     }
-    (void)s;
 }
 
 void o_let_out(o_scene *s)

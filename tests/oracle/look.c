@@ -137,7 +137,7 @@ static sph_status add_flows(sph_sim *sim, const plan *p, const uint32_t *set)
         const plan_flow *f = &p->flow[k];
         const uint32_t first = sim->now.count;
         uint32_t own;
-        st = f->out ? sph_add_outflow(sim, set[f->fluid], &f->is, &own) : sph_add_inflow(sim, set[f->fluid], &f->is, &own);
+        st = (f->out ? sph_add_outflow : sph_add_inflow)(sim, set[f->fluid], &f->is, &own);
         if (!st && !f->out)
             st = sph_apply_field(sim, own, uneven, (void *)(uintptr_t)f);
         for (uint32_t i = first; !st && i < sim->now.count; i++) {

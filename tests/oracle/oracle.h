@@ -259,7 +259,7 @@ bool o_open_flows(o_scene *s);                 /* at a step's beginning; false: 
 void o_straighten(o_scene *s);
 void o_note_held(o_scene *s);
 void o_change_sets(o_scene *s);
-void o_carry_along(const o_scene *s, o_particle *i, o_sum rate);
+void o_carry_along(o_particle *i, o_sum rate);
 void o_let_out(o_scene *s);
 void o_forces(o_scene *s);                     /* forces.c: everything before and in the force evaluation */
 

@@ -432,7 +432,8 @@ static void draw_the_leaving(plan *p, const plan_flow *f, bool up)
     const sph_config *c = &p->cfg;
     for (uint32_t n = 2 + pick(6); n > 0; n--) {
         plan_point *q = &p->point[pick(p->points)];
-        const double at = chance(0.5) == up ? f->is.lo[f->axis] : f->is.hi[f->axis], way = range(0.3, 1.5) * f->is.speed;
+        const double at = chance(0.5) == up ? f->is.lo[f->axis] : f->is.hi[f->axis];
+        const double way = range(0.3, 1.5) * f->is.speed;
         if (q->set != f->fluid && chance(0.8))
             continue;
         for (uint32_t k = 0; k < SPH_DIM; k++)
