@@ -564,6 +564,56 @@ static sph_status run_steps(sph_sim *sim, const plan *p, o_scene *s)
     return st;
 }
 
+/* ---- walls along polylines ---- */
+
+/* the nearest of those that have no particle yet */
+static o_bed_particle *place_of(o_bed_particle *bed, uint32_t n, const double *x)
+{
+    o_bed_particle *best = NULL;
+    double near = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const double d = hypot(bed[i].x[0] - x[0], bed[i].x[1] - x[1]);
+        if (!bed[i].found && (!best || d < near)) {
+            near = d;
+            best = &bed[i];
+        }
+    }
+    return best;
+}
+
+/* The particles of the last sets, which are the bed's: each has a place of its own, and its set is as that asks for. */
+static void compare_bed(o_scene *s, const plan *p)
+{
+    static o_bed_particle bed[4096];
+    const double dx = s->cfg.spacing;
+    const uint32_t points = p->bed.points, layers = p->bed.wall.layers;
+    const uint32_t deep = layers ? layers : (uint32_t)ceil(s->support / dx * (1 - 1e-12));
+    uint32_t there = 0;
+    if (points == 0)
+        return;
+    const uint32_t n = o_lay_bed(s, p->bed.p, points, p->bed.wall.kind >= SPH_WALL_GHOST ? deep : 0, deep * dx, bed);
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *w = &s->own[i];
+        const o_set *set = &s->set[w->set];
+        if (w->set + 2 * points - 3 < s->sets)
+            continue;
+        o_bed_particle *o = place_of(bed, n, w->x);
+        there++;
+        check("mass of a bed", w->id, 0, set->mass, exact(s->cfg.rho0 * pow(dx, SPH_DIM)), 0);
+        check("kind of a bed", w->id, 0, set->kind, exact(p->bed.wall.kind), 0);
+        for (uint32_t k = 0; o && k < 2; k++) {
+            check("place of a bed's", w->id, k, w->x[k], (o_sum){o->x[k], 1e-6 * dx / TOLERANCE}, 0);
+            check("normal of a bed", w->id, k, set->normal[k], (o_sum){o->normal[k], 1}, 0);
+            check("face of a bed", w->id, k, set->origin[k], (o_sum){o->origin[k], 100 * dx + fabs(o->origin[k])}, 0);
+        }
+        check("face of a bed", w->id, 2, o ? set->half[0] : 0, (o_sum){o ? o->half : 0, dx}, 0);
+        check("face of a bed", w->id, 3, set->thick, exact(o && o->region ? deep * dx : 0), 0);
+        if (o)
+            o->found = true;
+    }
+    check("particles of a bed", SPH_NO_PARTICLE, 0, there, exact(n), 0);
+}
+
 /* ---- a plan ---- */
 
 static o_scene scene;
@@ -577,6 +627,7 @@ static verdict compare(const plan *p, const char **why)
         return PLAN_REFUSED;
     }
     look_scene(sim, p, &scene);
+    compare_bed(&scene, p);
     if (sph_ready(sim) != SPH_OK) {
         *why = sph_status_text(sph_last(sim)->status);
         return PLAN_REFUSED;

@@ -87,6 +87,22 @@ static sph_status add_points(sph_sim *sim, const plan *p, const uint32_t *set)
     return st;
 }
 
+#if SPH_DIM == 2
+static sph_status add_bed(sph_sim *sim, const plan_bed *b)
+{
+    sph_wall wall = b->wall;
+    wall.motion = sph_motion_steady;
+    wall.motion_ctx = (void *)(uintptr_t)&b->motion;
+    return b->points ? sph_add_wall_polyline(sim, &wall, b->p, b->points, NULL) : SPH_OK;
+}
+#else
+static sph_status add_bed(sph_sim *sim, const plan_bed *b)
+{
+    (void)sim, (void)b;
+    return SPH_OK;
+}
+#endif
+
 #if SPH_DIM > 1
 static sph_status add_flaws(sph_sim *sim, const plan *p, const uint32_t *set)
 {
@@ -176,6 +192,7 @@ sph_sim *look_build(const plan *p, sph_report *why)
     st = st ? st : add_edges(sim, p);
     for (uint32_t k = 0; !st && k < p->walls; k++)
         st = add_wall(sim, &p->wall[k], &tables[k]);
+    st = st ? st : add_bed(sim, &p->bed);
     const sph_buffer *b = &sim->buf[sim->cur];
     for (uint32_t i = p->points; !st && i < sim->now.count; i++) /* compressible walls are not at rest density */
         if (sim->set[b->set[0][i]].compressible)

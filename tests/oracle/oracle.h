@@ -280,6 +280,14 @@ o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps,
                        uint32_t (*flaws_of)(uint32_t id, float *threshold));
 double o_shake(const o_scene *s); /* of a filtered density: what rounding may make of it; 0 if it is not shaken */
 
+/* ---- bed.c: particles of a wall along a polyline, with what is told of their piece or corner ---- */
+typedef struct o_bed_particle {
+    double x[2], normal[2], origin[2], half; /* m, -, m, m: of the face: its middle and half its length */
+    bool region, found;
+} o_bed_particle;
+/* layers 0: a row that stands on the wall; thick: of the faces, m; returns how many */
+uint32_t o_lay_bed(o_scene *s, const double (*p)[2], uint32_t n, uint32_t layers, double thick, o_bed_particle *out);
+
 /* ---- crossing.c ---- */
 void o_cross(o_scene *s); /* who is in a wall: removed, or put back */
 

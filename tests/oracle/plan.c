@@ -478,6 +478,59 @@ static void draw_flows(plan *p)
         c->max_particles = p->points + pick(4) + plan_inflow(p);
 }
 
+/* turns of at most a right angle, and the pieces so long that the deepest layer has more than a spacing of each */
+static void draw_way(plan_bed *b, double layers, double dx)
+{
+    double half[PLAN_BED + 1] = {0}, way = range(0, 2 * O_PI); /* tan(turn/2); none at the ends */
+    double turn[PLAN_BED] = {0};
+    for (uint32_t k = 1; k + 1 < b->points; k++) {
+        turn[k] = chance(0.1) ? 0 : chance(0.2) ? 0.5 * O_PI : range(0.01, 1.5);
+        turn[k] *= chance(0.5) ? 1 : -1;
+        half[k] = tan(0.5 * turn[k]);
+    }
+    for (uint32_t k = 1; k < b->points; k++) {
+        const double lost = o_max(-layers * (half[k - 1] + half[k]), 0), length = (range(1.02, 4) + lost) * dx;
+        way += turn[k - 1];
+        b->p[k][0] = b->p[k - 1][0] + length * cos(way);
+        b->p[k][1] = b->p[k - 1][1] + length * sin(way);
+    }
+}
+
+/* a wall along a polyline, one of whose points is near one of the particles; the domain grows until it holds it */
+static void draw_bed(plan *p)
+{
+    sph_config *c = &p->cfg;
+    const double dx = c->spacing, support = o_weight_support(c->kernel) * c->smoothing_length;
+    plan_bed *b = &p->bed;
+    if (SPH_DIM != 2 || c->max_particles < 4096 || p->points == 0 || !chance(0.2))
+        return;
+    b->wall = sph_wall_default();
+    b->wall.kind = chance(0.65) && c->eos != SPH_IDEAL_GAS ? SPH_WALL_GHOST + pick(2) : pick(SPH_WALL_GHOST);
+    b->wall.kind -= b->wall.kind == SPH_WALL_MONAGHAN_KOS && support < 2 * dx;
+    b->wall.compressible = c->density == SPH_CONTINUITY && chance(0.5);
+    b->wall.no_slip = chance(0.6);
+    if (b->wall.kind >= SPH_WALL_GHOST && !b->wall.compressible && chance(0.2))
+        b->wall.side = SPH_FRONT + pick(2);
+    b->wall.layers = chance(0.1) ? 0 : 1 + pick(3);
+    b->wall.strength = chance(0.5) ? 0 : range(0.01, 5);
+    b->points = 2 + pick(PLAN_BED - 1);
+    const double layers = b->wall.layers ? b->wall.layers : ceil(support / dx);
+    const plan_point *q = &p->point[pick(p->points)];
+    draw_way(b, layers, dx);
+    const uint32_t middle = pick(b->points);
+    const double at[2] = {b->p[middle][0], b->p[middle][1]};
+    for (int k = 0; k < SPH_DIM; k++) {
+        const double by = q->x[k] + range(-2, 2) * dx, room = (1.5 * layers + range(0, 1)) * dx;
+        for (uint32_t i = 0; i < b->points; i++) {
+            b->p[i][k] += by - at[k];
+            c->lo[k] = o_min(c->lo[k], b->p[i][k] - room);
+            c->hi[k] = o_max(c->hi[k], b->p[i][k] + room);
+        }
+        b->motion.v[k] = chance(0.4) ? range(-0.1, 0.1) * c->sound_speed : 0;
+        b->motion.a[k] = chance(0.2) ? range(-50, 50) : 0;
+    }
+}
+
 void plan_draw(plan *p, uint64_t seed)
 {
     memset(p, 0, sizeof *p);
@@ -524,6 +577,7 @@ void plan_draw(plan *p, uint64_t seed)
         p->steps = 0; /* layers made up at random amplify whatever they are given, rounding too */
     }
     draw_flows(p);
+    draw_bed(p);
 }
 
 void plan_print(const plan *p)
@@ -579,6 +633,12 @@ void plan_print(const plan *p)
     for (uint32_t k = 0; k < p->solids; k++)
         for (int a = 0; p->solid[k].held && a < SPH_DIM; a++)
             printf("  solid %u: held, axis %d: v %.9g a %.9g\n", k, a, p->held[k].v[a], p->held[k].a[a]);
+    if (p->bed.points)
+        printf("  bed: %s%s%s %s layers %u strength %g\n", word[8][p->bed.wall.kind],
+               p->bed.wall.compressible ? " compressible" : "", p->bed.wall.no_slip ? " no slip" : "",
+               word[9][p->bed.wall.side], p->bed.wall.layers, p->bed.wall.strength);
+    for (uint32_t k = 0; k < p->bed.points; k++)
+        printf("  bed: %.17g %.17g\n", p->bed.p[k][0], p->bed.p[k][1]);
     for (uint32_t k = 0; k < p->flows; k++) {
         const plan_flow *f = &p->flow[k];
         printf("  %s of fluid %u, axis %u, face %u, speed %g, gap %g, uneven %g, thick %g, way %g, room %u; box",

@@ -6,7 +6,8 @@
 
 #include "oracle.h"
 
-enum { PLAN_POINTS = 64, PLAN_SETS = 3, PLAN_WALLS = 2, PLAN_PROBES = 6, PLAN_ROWS = 4, PLAN_FLOWS = 2 };
+enum { PLAN_POINTS = 64, PLAN_SETS = 3, PLAN_WALLS = 2, PLAN_PROBES = 6, PLAN_ROWS = 4, PLAN_FLOWS = 2,
+       PLAN_BED = 5 };
 
 /* a step of nearly no time, in spacings over the sound speed */
 #define PLAN_STILL 1e-10
@@ -37,6 +38,13 @@ typedef struct plan_flow {
     double uneven, thick;   /* speeds vary by so much, with something sideways; densities too */
 } plan_flow;
 
+typedef struct plan_bed { /* a wall along a polyline, 2-D */
+    sph_wall wall;
+    sph_steady motion;
+    uint32_t points; /* 0: none */
+    double p[PLAN_BED][2];
+} plan_bed;
+
 typedef struct plan_flaws { /* as sph_flaws, which 1-D has not */
     double k, m;
     uint64_t seed;
@@ -53,6 +61,7 @@ typedef struct plan {
     plan_wall wall[PLAN_WALLS];
     uint32_t flows;
     plan_flow flow[PLAN_FLOWS];
+    plan_bed bed;
     double way;    /* spacings, of flows in a step, if that can be */
     double wall_d; /* densities of compressible ghosts vary by so much */
     plan_point point[PLAN_POINTS];
