@@ -2,8 +2,8 @@
 /* bed.c: walls along a polyline (sph.h, sph_add_wall_polyline), in 2-D: through points P_0 .. P_n-1, the fluid on the
    left. A layer d behind it (d = (l + 1/2) dx, or 0: a row that stands on the wall) is the polyline whose pieces lie d
    behind those of the wall, each on its own line; they meet where these lines cross, and at the two free ends stop
-   square. It has a particle in each crossing and evenly spaced ones between, as many as a spacing fits in, rounded; from
-   a free end it keeps half a step, a row none.
+   square. It has a particle in each crossing and evenly spaced ones between, as many as there is room for spacings,
+   rounded; from a free end layers keep half a step, rows none.
      normal   of a piece's: to the left of the way; of a corner's: halfway between those of its two pieces
      mass     rho0 dx^2, each
      face     what a piece takes as crossed is so thick as its layers and so long as it is, and where the fluid has less
