@@ -503,26 +503,30 @@ static void compare_ends(const sph_sim *sim, const o_scene *start, o_scene *s, u
         s->undecided = "rounding errors that grow without bound";
 }
 
-/* Who was born in a step has one of its new ids, nobody says which: those of the oracle go to where the kernel has
-   them. */
+static double way_between(const double *a, const double *b)
+{
+    double sum = 0;
+    for (int k = 0; k < SPH_DIM; k++)
+        sum += pow(a[k] - b[k], 2);
+    return sum;
+}
+
+/* Who was born in a step has one of its new ids, nobody says which: each of the oracle's takes that of the kernel's that
+   is nearest, and gives its own to the one that had it. */
 static void match_newcomers(const sph_sim *sim, o_scene *s)
 {
     look_results(sim, kernel, 4096);
-    for (uint32_t i = 0; i < s->n; i++)
-        for (uint32_t j = i + 1; s->own[i].born && j < s->n; j++) {
-            o_particle *a = &s->own[i], *b = &s->own[j];
-            double stay = 0, swap = 0;
-            for (int k = 0; k < SPH_DIM; k++) {
-                const double x = kernel[a->id].x[k], y = kernel[b->id].x[k];
-                stay += pow(a->x[k] - x, 2) + pow(b->x[k] - y, 2);
-                swap += pow(a->x[k] - y, 2) + pow(b->x[k] - x, 2);
-            }
-            if (b->born && kernel[a->id].there && kernel[b->id].there && swap < stay) {
-                const uint32_t id = a->id;
-                a->id = b->id;
-                b->id = id;
-            }
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *a = &s->own[i], *best = a;
+        for (uint32_t j = i + 1; a->born && j < s->n; j++) {
+            o_particle *b = &s->own[j];
+            if (b->born && way_between(kernel[b->id].x, a->x) < way_between(kernel[best->id].x, a->x))
+                best = b;
         }
+        const uint32_t id = a->id;
+        a->id = best->id;
+        best->id = id;
+    }
 }
 
 /* a step of a spacing's share where flows go, at the limits at most; else small */
