@@ -511,8 +511,8 @@ static double way_between(const double *a, const double *b)
     return sum;
 }
 
-/* Who was born in a step has one of its new ids, nobody says which: each of the oracle's takes that of the kernel's that
-   is nearest, and gives its own to the one that had it. */
+/* Who was born in a step has one of its new ids, nobody says which: each of the oracle's takes that of the kernel's
+   nearest, and gives its own to the one that had it. */
 static void match_newcomers(const sph_sim *sim, o_scene *s)
 {
     look_results(sim, kernel, 4096);
