@@ -492,7 +492,7 @@ static void compare_ends(const sph_sim *sim, const o_scene *start, o_scene *s, u
 {
     const uint32_t so_far = founds;
     spread = (o_spread){0};
-    if (!SPH_DOUBLE && s->cfg.books && s->wall_work.s > 1e25)
+    if (!SPH_DOUBLE && s->cfg.books && s->wall_work.s > 1e30)
         s->undecided = "powers beyond what a float holds";
     compare_trajectories(sim, s);
     if (founds == so_far)
