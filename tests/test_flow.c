@@ -201,6 +201,30 @@ static void what_flows_carry_keeps_velocity_and_density(void **state)
     }
 }
 
+/* along the second axis too: what flows hold has the speed along their axis and nothing across it */
+static void what_comes_in_goes_along_its_axis_only(void **state)
+{
+    for (uint32_t axis = 0; axis < SPH_DIM; axis++)
+        for (uint32_t up = 0; up < 2; up++) {
+            sph_config c = channel(0.3, 5000);
+            sph_flow f = {.face = up ? SPH_HIGH(axis) : SPH_LOW(axis), .speed = 1.5};
+            uint32_t water, set;
+            sph_particle p;
+            for (uint32_t k = 0; k < SPH_DIM; k++)
+                f.hi[k] = k == axis ? LAYERS * DX : 3 * DX;
+            sph_sim *sim = new_sim(&c);
+            must(sim, sph_add_fluid(sim, NULL, &water));
+            must(sim, sph_add_inflow(sim, water, &f, &set));
+            assert_true(sph_count(sim) > 0);
+            for (uint32_t i = 0; i < sph_count(sim); i++) {
+                assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+                for (uint32_t k = 0; k < SPH_DIM; k++)
+                    assert_true(p.v[k] == (k != axis ? 0 : up ? 1.5 : -1.5));
+            }
+            free_sims(state);
+        }
+}
+
 static void a_full_capacity_is_a_status_that_says_the_need_and_leaves_the_state(void **state)
 {
     const uint32_t first = (REACH - LAYERS) * ROWS;
@@ -417,6 +441,7 @@ int main(void)
         subject(a_uniform_stream_keeps_its_lattice_to_the_last_bit),
         subject(books_of_mass_and_ids_are_exact_over_many_particles),
         subject(what_flows_carry_keeps_velocity_and_density),
+        subject(what_comes_in_goes_along_its_axis_only),
         subject(a_full_capacity_is_a_status_that_says_the_need_and_leaves_the_state),
         subject(restarts_slices_and_threads_change_nothing),
         subject(energy_is_accounted_for),
