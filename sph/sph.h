@@ -160,7 +160,8 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_IDEAL_GAS, SPH_E
               (after Ganzenmueller 2015; hourglass.h). Costs a sweep and SPH_DIM^2 + 1 reals a particle.
    STABILISED UPDATED with, along axes in tension, a kernel whose sums over neighbours vanish (Powell 2012 section 4.2;
               stabilised.h): no tensile instability, and bodies may flow and come apart. Momentum is kept, energy is
-              not. Wants xsph. Costs two sweeps and 5 SPH_DIM + 2 reals a particle.
+              not. Wants xsph_velocity with xsph 0.1, without which pushes grow still, at a fifth of their rate. Costs
+              two sweeps and 5 SPH_DIM + 3 reals a particle.
    NORMALISED UPDATED with the gradient of the kernel over its sum, exact for constants (Powell 2012 eq 1.14), and
    NORMALISED_CORRECTED  of that, corrected to be exact for linear fields (his 1.19), in the velocity gradient and in
               each particle's own force. Keep neither momentum nor energy, and fail in tension: for comparison. Cost a
