@@ -3,8 +3,9 @@
    made: of every particle, walls too, after each step. Compiled for each build.
 
      count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
-                            total: its block of a solid; plain, stabilised: that block as Powell's (2012) have it; default, no_books, large_eddies, shifting: the scene dam_break
-                            or dam_break_3d as it is, without books, with large eddies, with its particles shifted */
+                            total: its block of a solid; plain, stabilised: that block with Powell's kernel (2012);
+                            default, no_books, large_eddies, shifting, damper: the scene dam_break or dam_break_3d as
+                            it is, without books, with large eddies, with its particles shifted, with the damper */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 

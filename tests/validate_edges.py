@@ -212,18 +212,25 @@ def two_blocks(quick, add):
 
 
 def clamped_beam(quick, add):
-    """P10: displacement of the middle of a beam that is struck. The elements of the kernel's own law are good to 0.01 cm
+    """P10: displacement of the middle of a beam that is struck. Elements with the kernel's own law are good to 0.01 cm
     until 8 us and to 0.05 cm later; those of another law, NH, to 0.012 cm."""
-    n = 12 if quick else 16
-    viscous = dict(alpha=1)
     for form, own in FORMS.items():
-        run = Run("clamped_beam", form=form, n=n, h=1.2, frames=150, **own, **viscous)
         target = 3.0 if form in HOLDS else None
-        add(f"P10 {form}, n={n}: uy_bottom until 8 us, off elements of the same law", "% of its range", target, [run],
-            lambda r: worst(r, "uy_bottom", "powell_clamped_beam.csv", "uy_bottom_EOS_J_h_01_l_02", 7.9))
-        for column, ref in (("uy_bottom", "uy_bottom_NH_h_005_l_02"), ("uy_top", "uy_top_NH_h_005_l_02")):
-            add(f"P10 {form}, n={n}: {column}, off finite elements", "% of its range", target, [run],
-                lambda r, c=column, f=ref: worst(r, c, "powell_clamped_beam.csv", f, 14.9))
+        for n in (12,) if quick else (12, 16, 20) if form == "stabilised" else (12, 16):
+            early = Run("clamped_beam", form=form, n=n, us=8, h=1.2, frames=80, alpha=1, **own)
+            if form in HOLDS:
+                add(f"P10 {form}, n={n}: uy_bottom until 8 us, off elements of the same law", "% of its range", target,
+                    [early],
+                    lambda r: worst(r, "uy_bottom", "powell_clamped_beam.csv", "uy_bottom_EOS_J_h_01_l_02", 7.9))
+        run = Run("clamped_beam", form=form, n=12, h=1.2, frames=150, alpha=1, **own)
+        if form in HOLDS:
+            for column, ref in (("uy_bottom", "uy_bottom_NH_h_005_l_02"), ("uy_top", "uy_top_NH_h_005_l_02")):
+                add(f"P10 {form}, n=12: {column}, off finite elements", "% of its range", target, [run],
+                    lambda r, c=column, f=ref: worst(r, c, "powell_clamped_beam.csv", f, 14.9))
+        else:
+            add(f"P10 {form}, n=12 (printed: fails, or nearly): uy_bottom, off finite elements", "% of its range",
+                (">=", 30), [run], lambda r: 1e9 if r.error else
+                worst(r, "uy_bottom", "powell_clamped_beam.csv", "uy_bottom_NH_h_005_l_02", 14.9))
 
 
 GROUPS = [plane_waves, bars, squares, discs, two_blocks, clamped_beam]

@@ -26,7 +26,7 @@ void atlas_forms_of_solids(FILE *f)
                 {"stabilised", SPH_STABILISED, -1}, {"total", SPH_TOTAL, 1}};
     atlas_head(f, "forms", "Swegle test of the forms of solids: growth rate of a push of 1e-10 c0, c0/dx",
                "square lattice, periodic, cubic spline, h 1.3 dx, mu = 0.22 K, volume strain V/V0 (above 1: tension)\n"
-               "xsph: factor by which velocities are smoothed at each step of 0.2 dx/c0; measured and theory as in table "
+               "xsph: factor by which velocities are smoothed at each step of 0.2 dx/c0; measured, theory: as table "
                "swegle;\n"
                "theory - where none is at hand (atlas_forms.c)",
                "form,xsph,volume,measured,theory");
