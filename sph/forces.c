@@ -577,14 +577,14 @@ static void find_fast_paths(const sph_sim *sim, sph_thread *t)
         c.apart = SPH_HAS_APART && sph_asks_apart(sim);
         t->fast_path[wall] = fast_path_of(&c);
         c.form = 0;
-        t->fast_path[2] = fast_path_of(&c);
+        t->fast_path[2] = SPH_HAS_STABILISED ? fast_path_of(&c) : 0;
     }
 }
 
 /* whether nobody in a tile feels what the stabilised form adds */
 static bool is_slack(const sph_sim *sim, const sph_thread *t, const sph_choice *c, uint32_t homes)
 {
-    return sph_stabilised(c) && !c->wall && !sph_is_drawn(sim, t, homes);
+    return SPH_HAS_STABILISED && sph_stabilised(c) && !c->wall && !sph_is_drawn(sim, t, homes);
 }
 
 /* Adds a tile to the homes' sums, in a general form, where no fast path has. A ghost whose density goes by continuity
