@@ -6,8 +6,12 @@
    slabs or next to them, because a particle moves less than a cell in a step, and writes only its own cells: so
    ranges run at once and in any order. (cell, id) is a total order, so neither ranges nor threads show in the result.
 
+   Of the table only those strips of cells are cleared, filled and looked at that a particle is in, and those that the
+   ends of ranges cut, which two ranges share. In the others only the starts of slabs are right, which the next sort
+   reads; sph_skip passes over the rest.
+
    dst.id holds each particle's index in src until the stage's last pass writes the id itself. Costs the table of
-   cells (4 bytes each) and of slabs. */
+   cells (4 bytes each), of strips and of slabs. */
 #include "motion.h"
 #include "passes.h"
 #include "arithmetic.h"
@@ -23,11 +27,15 @@ typedef struct range {
     uint32_t own_from, own_to, known; /* known: those before it are in the table */
 } range;
 
+SPH_INLINE uint32_t first_slab(const sph_sim *sim, uint32_t r)
+{
+    return (uint32_t)((uint64_t)sim->grid.slabs * r / sim->ranges);
+}
 static range make_range(const sph_sim *sim, uint32_t r)
 {
     range g;
-    g.lo = (uint32_t)((uint64_t)sim->grid.slabs * r / sim->ranges);
-    g.hi = (uint32_t)((uint64_t)sim->grid.slabs * (r + 1) / sim->ranges);
+    g.lo = first_slab(sim, r);
+    g.hi = first_slab(sim, r + 1);
     g.pieces = 1;
     if (SPH_WITH_FLOW)
         g.known = sim->src_count;
@@ -122,6 +130,25 @@ static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, bo
     }
 }
 
+/* ---- counting ---- */
+
+/* counts of the cells c0 .. c1 - 1 of a range at its beginning: of all, or of the strips that its ends cut */
+SPH_INLINE void clear_counts(uint32_t *count, uint32_t c0, uint32_t c1)
+{
+    const uint32_t e = sph_strip_end(c0, c1), s = c1 / SPH_STRIP * SPH_STRIP;
+    memset(count + c0, 0, (size_t)(e - c0) * sizeof *count);
+    if (SPH_STRIPS && s > c0)
+        memset(count + s, 0, (size_t)(c1 - s) * sizeof *count);
+}
+
+/* the first particle of a strip that stands wholly in a range, which ends before cell c1, is met */
+static void open_strip(sph_sim *sim, uint32_t strip, uint32_t c1)
+{
+    const uint32_t c = strip * SPH_STRIP;
+    sim->strip[strip] = 1;
+    memset(sim->cell + 1 + c, 0, (size_t)(sph_strip_end(c, c1) - c) * sizeof *sim->cell);
+}
+
 static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
 {
     const sph_move a = sph_stage_move(sim);
@@ -129,7 +156,7 @@ static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
     const uint32_t c0 = g.lo * sim->grid.slab_cells, c1 = g.hi * sim->grid.slab_cells;
     uint32_t total = 0, slab = g.lo;
     uint32_t *const count = sim->cell + 1, *const cell = t->block.to;
-    memset(count + c0, 0, (size_t)(c1 - c0) * sizeof *count);
+    clear_counts(count, c0, c1);
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += SPH_BLOCK) {
             const uint32_t n = g.to[p] - i < SPH_BLOCK ? g.to[p] - i : SPH_BLOCK;
@@ -137,6 +164,8 @@ static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
             block_cells(sim, &g, i, n, fine, &slab, t);
             for (uint32_t j = 0; j < n; j++)
                 if (cell[j] - c0 < c1 - c0) {
+                    if (SPH_STRIPS && !sim->strip[cell[j] / SPH_STRIP])
+                        open_strip(sim, cell[j] / SPH_STRIP, c1);
                     count[cell[j]]++;
                     total++;
                 }
@@ -202,8 +231,8 @@ SPH_INLINE void set_eight(uint32_t *cell, uint32_t value)
         memcpy(cell + k, &two, sizeof two);
 }
 
-/* counts of n cells become starts, from `first` on; filling turns them into the next cell's start */
-static void starts_of_counts(uint32_t *cell, uint32_t n, uint32_t first)
+/* counts of n cells become starts, from `first` on; filling turns them into the next cell's start. Returns the last. */
+SPH_INLINE uint32_t starts_of_counts(uint32_t *cell, uint32_t n, uint32_t first)
 {
     for (uint32_t c = 0; c < n; c++) {
         for (; !SPH_SMALL && c + 8 < n && are_eight_zero(cell + c); c += 8)
@@ -212,6 +241,42 @@ static void starts_of_counts(uint32_t *cell, uint32_t n, uint32_t first)
         cell[c] = first;
         first += count;
     }
+    return first;
+}
+
+/* those of a range's cells c0 .. c1 - 1; in strips without particles only where slabs begin, and what lies behind */
+static void starts_of_range(const sph_sim *sim, uint32_t c0, uint32_t c1, uint32_t first)
+{
+    uint32_t *const cell = sim->cell, slab = sim->grid.slab_cells, c = c0;
+    do {
+        const uint32_t s = sph_skip(sim, c, c1), e = sph_strip_end(s, c1);
+        if (SPH_STRIPS && s > c) {
+            for (uint32_t begin = (c / slab + 1) * slab; begin < s; begin += slab)
+                cell[begin] = first;
+            cell[s] = first;
+        }
+        first = starts_of_counts(cell + 1 + s, e - s, first);
+        c = e;
+    } while (SPH_STRIPS && c < c1);
+}
+
+/* puts the particles of the cells c .. e - 1, whose first is `start`, in order; returns whose first the next is */
+SPH_INLINE uint32_t order_cells(const sph_sim *sim, const uint32_t *cell, uint32_t c, uint32_t e, uint32_t start,
+                                sph_thread *t)
+{
+    uint32_t widest = 0;
+    for (; c < e; c++) {
+        while (!SPH_SMALL && !SPH_STRIPS && c + 64 < e && cell[c + 64] == start)
+            c += 64; /* starts never fall: so many empty cells */
+        while (!SPH_SMALL && c + 8 < e && cell[c + 8] == start)
+            c += 8;
+        const uint32_t end = cell[c + 1];
+        widest = end - start > widest ? end - start : widest;
+        order_cell(sim, start, end);
+        start = end;
+    }
+    t->widest = widest > t->widest ? widest : t->widest;
+    return start;
 }
 
 static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
@@ -223,7 +288,7 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
     uint32_t *const cell = sim->cell, run = sim->range_count[r];
     const uint8_t *set = sim->buf[sim->src].set[0];
     uint32_t *const at = t->block.to;
-    starts_of_counts(cell + 1 + c0, c1 - c0, run);
+    starts_of_range(sim, c0, c1, run);
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += SPH_BLOCK) {
             const uint32_t n = g.to[p] - i < SPH_BLOCK ? g.to[p] - i : SPH_BLOCK;
@@ -248,19 +313,27 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
                 j = e;
             }
         }
-    uint32_t start = run, widest = 0;
-    for (uint32_t c = c0; c < c1; c++) {
-        while (!SPH_SMALL && c + 64 < c1 && cell[c + 64] == start)
-            c += 64; /* starts never fall: so many empty cells */
-        while (!SPH_SMALL && c + 8 < c1 && cell[c + 8] == start)
-            c += 8;
-        uint32_t end = cell[c + 1];
-        widest = end - start > widest ? end - start : widest;
-        order_cell(sim, start, end);
-        start = end;
-    }
+    uint32_t c = c0;
+    do {
+        const uint32_t s = sph_skip(sim, c, c1);
+        c = sph_strip_end(s, c1);
+        run = order_cells(sim, cell, s, c, run, t);
+    } while (SPH_STRIPS && c < c1);
     t->work += c1 - c0;
-    t->widest = widest > t->widest ? widest : t->widest;
+}
+
+/* strips that ends of ranges cut are stored where somebody is in, like others */
+static void close_empty_strips(sph_sim *sim)
+{
+    for (uint32_t r = 0; r < sim->ranges; r++) {
+        const uint32_t s = first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP;
+        const uint32_t *const count = sim->cell + 1 + s * SPH_STRIP;
+        const uint32_t n = sph_strip_end(s * SPH_STRIP, sim->grid.cells) - s * SPH_STRIP;
+        uint32_t any = 0;
+        for (uint32_t k = 0; k < n; k++)
+            any |= count[k];
+        sim->strip[s] = any != 0;
+    }
 }
 
 static uint32_t range_chunks(const sph_sim *sim) { return sim->ranges; }
@@ -276,6 +349,8 @@ static sph_status count_end(sph_sim *sim)
     }
     sim->cell[0] = 0;
     sim->next.count = sum;
+    if (SPH_STRIPS)
+        close_empty_strips(sim);
     SPH_ASSERT(sum <= sim->cfg.max_particles);
     return SPH_OK;
 }
@@ -307,5 +382,9 @@ void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bo
         sim->ranges = r < 1 ? 1 : r > SPH_MAX_RANGES ? SPH_MAX_RANGES : r;
     }
     sim->table_valid = false; /* from here on cell[] is being rebuilt */
+    if (SPH_STRIPS)
+        memset(sim->strip, 0, sim->grid.cells / SPH_STRIP + 9);
+    for (uint32_t r = 0; SPH_STRIPS && r < sim->ranges; r++)
+        sim->strip[first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP] = 1;
     SPH_VALIDATE(sph_poison_stage(sim));
 }

@@ -77,6 +77,10 @@ int main(int argc, char **argv)
         t = block(n, SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, false);
     else if (strcmp(argv[1], "total") == 0)
         t = block(n, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, false);
+    else if (strcmp(argv[1], "tight") == 0)
+        t = block_in(5, n, SPH_NO_SOLID, 0, false);
+    else if (strcmp(argv[1], "empty") == 0)
+        t = block_in(398, n, SPH_NO_SOLID, 0, false);
     else
         t = scene_tank(dam_break, n, argv[1]);
     for (uint32_t k = 0; k < steps; k++) {
