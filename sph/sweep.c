@@ -407,8 +407,8 @@ bool sph_is_empty_chunk(const sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const uint32_t cell = chunk * sim->chunk_cells, end = end_of_chunk(sim, cell);
     const uint32_t from = sph_skip(sim, cell, end);
-    /* where starts are not known all through: somebody is in every strip that is stored */
-    if (from < end && (sph_strip_end(from, end) < end || from > cell || sim->cell[cell] != sim->cell[end]))
+    /* somebody is in every strip of which starts are stored, but not in every cell of a slice */
+    if (from < end && (sph_strip_end(from, end) < end || sim->cell[from] != sim->cell[end]))
         return false;
     t->work += end - cell;
     return true;
