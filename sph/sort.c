@@ -6,9 +6,9 @@
    slabs or next to them, because a particle moves less than a cell in a step, and writes only its own cells: so
    ranges run at once and in any order. (cell, id) is a total order, so neither ranges nor threads show in the result.
 
-   Of the table only those strips of cells are cleared, filled and looked at that a particle is in, and those that the
-   ends of ranges cut, which two ranges share. In the others only the starts of slabs are right, which the next sort
-   reads; sph_skip passes over the rest.
+   Only those strips of the table are cleared and counted in that a particle is in, and those that an end of a range
+   cuts, so that two ranges share it; and only those are filled from which a sweep reads: these and those beside them.
+   In all others nothing is right but the starts of slabs, which the next sort reads.
 
    dst.id holds each particle's index in src until the stage's last pass writes the id itself. Costs the table of
    cells (4 bytes each), of strips and of slabs. */
@@ -141,11 +141,13 @@ SPH_INLINE void clear_counts(uint32_t *count, uint32_t c0, uint32_t c1)
         memset(count + s, 0, (size_t)(c1 - s) * sizeof *count);
 }
 
-/* the first particle of a strip that stands wholly in a range, which ends before cell c1, is met */
+/* a particle is in a strip; if it is the first, and the strip not cut by an end of the range, which is before cell c1 */
 static void open_strip(sph_sim *sim, uint32_t strip, uint32_t c1)
 {
     const uint32_t c = strip * SPH_STRIP;
-    sim->strip[strip] = 1;
+    if (sim->strip[strip])
+        return;
+    sim->strip[strip] = SPH_PEOPLED;
     memset(sim->cell + 1 + c, 0, (size_t)(sph_strip_end(c, c1) - c) * sizeof *sim->cell);
 }
 
@@ -154,7 +156,7 @@ static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
     const sph_move a = sph_stage_move(sim);
     const range g = make_range(sim, r);
     const uint32_t c0 = g.lo * sim->grid.slab_cells, c1 = g.hi * sim->grid.slab_cells;
-    uint32_t total = 0, slab = g.lo;
+    uint32_t total = 0, slab = g.lo, strip = NO_CELL;
     uint32_t *const count = sim->cell + 1, *const cell = t->block.to;
     clear_counts(count, c0, c1);
     for (uint32_t p = 0; p < g.pieces; p++)
@@ -164,8 +166,8 @@ static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
             block_cells(sim, &g, i, n, fine, &slab, t);
             for (uint32_t j = 0; j < n; j++)
                 if (cell[j] - c0 < c1 - c0) {
-                    if (SPH_STRIPS && !sim->strip[cell[j] / SPH_STRIP])
-                        open_strip(sim, cell[j] / SPH_STRIP, c1);
+                    if (SPH_STRIPS && cell[j] / SPH_STRIP != strip)
+                        open_strip(sim, strip = cell[j] / SPH_STRIP, c1);
                     count[cell[j]]++;
                     total++;
                 }
@@ -244,18 +246,21 @@ SPH_INLINE uint32_t starts_of_counts(uint32_t *cell, uint32_t n, uint32_t first)
     return first;
 }
 
-/* those of a range's cells c0 .. c1 - 1; in strips without particles only where slabs begin, and what lies behind */
+/* those of a range's cells c0 .. c1 - 1; in strips that are not stored only where slabs begin, and what lies behind */
 static void starts_of_range(const sph_sim *sim, uint32_t c0, uint32_t c1, uint32_t first)
 {
     uint32_t *const cell = sim->cell, slab = sim->grid.slab_cells, c = c0;
     do {
-        const uint32_t s = sph_skip(sim, c, c1), e = sph_strip_end(s, c1);
+        const uint32_t s = sph_skip(sim, c, c1, SPH_STORED), e = sph_strip_end(s, c1);
         if (SPH_STRIPS && s > c) {
             for (uint32_t begin = (c / slab + 1) * slab; begin < s; begin += slab)
                 cell[begin] = first;
             cell[s] = first;
         }
-        first = starts_of_counts(cell + 1 + s, e - s, first);
+        if (!SPH_STRIPS || (s < c1 && sim->strip[s / SPH_STRIP] & SPH_PEOPLED))
+            first = starts_of_counts(cell + 1 + s, e - s, first);
+        for (uint32_t k = s; SPH_STRIPS && k < e && !(sim->strip[s / SPH_STRIP] & SPH_PEOPLED); k++)
+            cell[k + 1] = first;
         c = e;
     } while (SPH_STRIPS && c < c1);
 }
@@ -315,24 +320,72 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
         }
     uint32_t c = c0;
     do {
-        const uint32_t s = sph_skip(sim, c, c1);
+        const uint32_t s = sph_skip(sim, c, c1, SPH_PEOPLED);
         c = sph_strip_end(s, c1);
         run = order_cells(sim, cell, s, c, run, t);
     } while (SPH_STRIPS && c < c1);
     t->work += c1 - c0;
 }
 
-/* strips that ends of ranges cut are stored where somebody is in, like others */
+/* ---- strips ---- */
+
+/* strips that ends of ranges cut were counted in whether somebody is there or not */
 static void close_empty_strips(sph_sim *sim)
 {
     for (uint32_t r = 0; r < sim->ranges; r++) {
-        const uint32_t s = first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP;
-        const uint32_t *const count = sim->cell + 1 + s * SPH_STRIP;
-        const uint32_t n = sph_strip_end(s * SPH_STRIP, sim->grid.cells) - s * SPH_STRIP;
+        const uint32_t s = first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP, c = s * SPH_STRIP;
+        const uint32_t *const count = sim->cell + 1 + c, n = sph_strip_end(c, sim->grid.cells) - c;
         uint32_t any = 0;
         for (uint32_t k = 0; k < n; k++)
             any |= count[k];
-        sim->strip[s] = any != 0;
+        sim->strip[s] = any ? SPH_PEOPLED : 0;
+    }
+}
+
+/* how far it is along axis k, in cells of the table, to what a cell has beside it, round the domain where that is
+   periodic; along the first axis neighbours follow each other */
+static uint32_t shifts_along(const sph_sim *sim, uint32_t k, int64_t *shift)
+{
+    int64_t stride = 1;
+    uint32_t n = 1;
+    for (uint32_t a = 0; a < k; a++)
+        stride *= sim->grid.ncell[a];
+    shift[0] = 0;
+    for (int64_t way = -1; way <= 1; way += 2) {
+        if (k > 0)
+            shift[n++] = way * stride;
+        if (SPH_IS(sim->cfg.face[k][0], PERIODIC))
+            shift[n++] = way * stride * ((int64_t)sim->grid.ncell[k] - 1);
+    }
+    return n;
+}
+
+/* a sweep reads where the cells c - 1 .. e begin and end; those that do not exist do no harm */
+static void store_strips(sph_sim *sim, int64_t c, int64_t e)
+{
+    const int64_t most = (int64_t)sim->grid.cells - 1;
+    for (int64_t s = (c < 1 ? 0 : c - 1) / SPH_STRIP; s <= (e < most ? e : most) / SPH_STRIP; s++)
+        sim->strip[s] |= SPH_STORED;
+}
+
+/* all that sweeps read, of strips with particles and beside them, is stored */
+static void choose_strips(sph_sim *sim)
+{
+    const uint32_t cells = sim->grid.cells;
+    int64_t shift[3][5] = {{0}};
+    uint32_t n[3] = {1, 1, 1};
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        n[k] = shifts_along(sim, k, shift[k]);
+    close_empty_strips(sim);
+    for (uint32_t c = sph_skip(sim, 0, cells, SPH_PEOPLED); c < cells; c = sph_skip(sim, c, cells, SPH_PEOPLED)) {
+        const uint32_t e = sph_strip_end(c, cells);
+        for (uint32_t x = 0; x < n[0]; x++)
+            for (uint32_t y = 0; y < n[1]; y++)
+                for (uint32_t z = 0; z < n[2]; z++) {
+                    const int64_t to = shift[0][x] + shift[1][y] + shift[2][z];
+                    store_strips(sim, c + to, e + to);
+                }
+        c = e;
     }
 }
 
@@ -350,7 +403,7 @@ static sph_status count_end(sph_sim *sim)
     sim->cell[0] = 0;
     sim->next.count = sum;
     if (SPH_STRIPS)
-        close_empty_strips(sim);
+        choose_strips(sim);
     SPH_ASSERT(sum <= sim->cfg.max_particles);
     return SPH_OK;
 }
@@ -385,6 +438,6 @@ void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bo
     if (SPH_STRIPS)
         memset(sim->strip, 0, sim->grid.cells / SPH_STRIP + 9);
     for (uint32_t r = 0; SPH_STRIPS && r < sim->ranges; r++)
-        sim->strip[first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP] = 1;
+        sim->strip[first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP] = SPH_PEOPLED;
     SPH_VALIDATE(sph_poison_stage(sim));
 }

@@ -181,15 +181,9 @@ static void add_run(filling *f, const sph_image *im, const sph_set *set, uint32_
     }
 }
 
-/* candidates of the cells c0..c1 (at most three, contiguous in a row), seen through an image */
+/* candidates of the cells c0..c1 (contiguous in a row), seen through an image */
 static void add_cells(filling *f, const sph_image *im, uint32_t c0, uint32_t c1)
 {
-    if (SPH_STRIPS && !(f->sim->strip[c0 / SPH_STRIP] & f->sim->strip[c1 / SPH_STRIP])) {
-        c0 = sph_skip(f->sim, c0, c1 + 1);
-        if (c0 > c1)
-            return;
-        c1 = sph_strip_end(c0, c1 + 1) - 1;
-    }
     uint32_t s = f->sim->cell[c0], e = f->sim->cell[c1 + 1];
     while (s < e) {
         uint32_t r = sph_run_end(f->b->set[0], s, e);
@@ -406,8 +400,8 @@ static uint32_t end_of_chunk(const sph_sim *sim, uint32_t cell)
 bool sph_is_empty_chunk(const sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const uint32_t cell = chunk * sim->chunk_cells, end = end_of_chunk(sim, cell);
-    const uint32_t from = sph_skip(sim, cell, end);
-    /* somebody is in every strip of which starts are stored, but not in every cell of a slice */
+    const uint32_t from = sph_skip(sim, cell, end, SPH_PEOPLED);
+    /* somebody is in every such strip, but not in every cell of a slice */
     if (from < end && (sph_strip_end(from, end) < end || sim->cell[from] != sim->cell[end]))
         return false;
     t->work += end - cell;
@@ -451,7 +445,7 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     const uint32_t first = chunk * sim->chunk_cells, last = end_of_chunk(sim, first);
     uint32_t cell = first;
     do {
-        const uint32_t s = sph_skip(sim, cell, last);
+        const uint32_t s = sph_skip(sim, cell, last, SPH_PEOPLED);
         cell = sph_strip_end(s, last);
         sweep_cells(&f, s, cell);
     } while (SPH_STRIPS && cell < last);

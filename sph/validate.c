@@ -29,7 +29,7 @@ static bool each_once(const sph_sim *sim)
 /* where a slab begins, from its first particle's cell on */
 static uint32_t slab_start(const sph_sim *sim, uint32_t slab)
 {
-    const uint32_t c = sph_skip(sim, slab * sim->grid.slab_cells, sim->grid.cells);
+    const uint32_t c = sph_skip(sim, slab * sim->grid.slab_cells, sim->grid.cells, SPH_PEOPLED);
     return c < sim->grid.cells ? sim->cell[c] : sim->next.count;
 }
 
@@ -39,7 +39,7 @@ bool sph_is_sorted(const sph_sim *sim)
     bool fine = sim->cell[0] == 0 && sim->cell[sim->grid.cells] == sim->next.count && each_once(sim);
     uint32_t before = 0;
     for (uint32_t c = 0; fine && c < sim->grid.cells; c++) {
-        c = sph_skip(sim, c, sim->grid.cells);
+        c = sph_skip(sim, c, sim->grid.cells, SPH_PEOPLED);
         if (c == sim->grid.cells)
             break;
         fine = sim->cell[c] == before;
