@@ -8,7 +8,8 @@
 
    Only those strips of the table are cleared and counted in that a particle is in, and those that an end of a range
    cuts, so that two ranges share it; and only those are filled from which a sweep reads: these and those beside them.
-   In all others nothing is right but the starts of slabs, which the next sort reads.
+   In all others nothing is right but the starts of slabs, which the next sort reads. In a step that is done in slices
+   every strip is counted in and filled: to choose them is one pass without chunks.
 
    dst.id holds each particle's index in src until the stage's last pass writes the id itself. Costs the table of
    cells (4 bytes each), of strips and of slabs. */
@@ -132,12 +133,15 @@ static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, bo
 
 /* ---- counting ---- */
 
+/* whether strips are chosen, or all are filled */
+SPH_INLINE bool chooses(const sph_sim *sim) { return SPH_STRIPS && sim->chunk_cells != SPH_SLICE_CHUNK; }
+
 /* counts of the cells c0 .. c1 - 1 of a range at its beginning: of all, or of the strips that its ends cut */
-SPH_INLINE void clear_counts(uint32_t *count, uint32_t c0, uint32_t c1)
+SPH_INLINE void clear_counts(uint32_t *count, uint32_t c0, uint32_t c1, bool all)
 {
-    const uint32_t e = sph_strip_end(c0, c1), s = c1 / SPH_STRIP * SPH_STRIP;
+    const uint32_t e = all ? c1 : sph_strip_end(c0, c1), s = c1 / SPH_STRIP * SPH_STRIP;
     memset(count + c0, 0, (size_t)(e - c0) * sizeof *count);
-    if (SPH_STRIPS && s > c0)
+    if (!all && s > c0)
         memset(count + s, 0, (size_t)(c1 - s) * sizeof *count);
 }
 
@@ -158,7 +162,7 @@ static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
     const uint32_t c0 = g.lo * sim->grid.slab_cells, c1 = g.hi * sim->grid.slab_cells;
     uint32_t total = 0, slab = g.lo, strip = NO_CELL;
     uint32_t *const count = sim->cell + 1, *const cell = t->block.to;
-    clear_counts(count, c0, c1);
+    clear_counts(count, c0, c1, !chooses(sim));
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += SPH_BLOCK) {
             const uint32_t n = g.to[p] - i < SPH_BLOCK ? g.to[p] - i : SPH_BLOCK;
@@ -402,7 +406,7 @@ static sph_status count_end(sph_sim *sim)
     }
     sim->cell[0] = 0;
     sim->next.count = sum;
-    if (SPH_STRIPS)
+    if (chooses(sim))
         choose_strips(sim);
     SPH_ASSERT(sum <= sim->cfg.max_particles);
     return SPH_OK;
@@ -436,8 +440,8 @@ void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bo
     }
     sim->table_valid = false; /* from here on cell[] is being rebuilt */
     if (SPH_STRIPS)
-        memset(sim->strip, 0, sim->grid.cells / SPH_STRIP + 9);
-    for (uint32_t r = 0; SPH_STRIPS && r < sim->ranges; r++)
+        memset(sim->strip, chooses(sim) ? 0 : SPH_PEOPLED | SPH_STORED, sim->grid.cells / SPH_STRIP + 9);
+    for (uint32_t r = 0; chooses(sim) && r < sim->ranges; r++)
         sim->strip[first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP] = SPH_PEOPLED;
     SPH_VALIDATE(sph_poison_stage(sim));
 }

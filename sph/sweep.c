@@ -408,8 +408,13 @@ bool sph_is_empty_chunk(const sph_sim *sim, uint32_t chunk, sph_thread *t)
     return true;
 }
 
-/* the cells cell .. last - 1, which stand in one strip */
-static void sweep_cells(filling *f, uint32_t cell, uint32_t last)
+#if SPH_STRIPS
+#define SWEEP SPH_APART
+#else
+#define SWEEP static
+#endif
+/* the cells cell .. last - 1, where all starts are known */
+SWEEP void sweep_cells(filling *f, uint32_t cell, uint32_t last)
 {
     const sph_sim *const sim = f->sim;
     uint32_t c[3] = {0}, q = cell;
