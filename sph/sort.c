@@ -145,7 +145,7 @@ SPH_INLINE void clear_counts(uint32_t *count, uint32_t c0, uint32_t c1, bool all
         memset(count + s, 0, (size_t)(c1 - s) * sizeof *count);
 }
 
-/* a particle is in a strip; if it is the first, and the strip not cut by an end of the range, which is before cell c1 */
+/* a particle is in a strip, perhaps the first; those that ends of ranges cut are open; c1: where the range ends */
 static void open_strip(sph_sim *sim, uint32_t strip, uint32_t c1)
 {
     const uint32_t c = strip * SPH_STRIP;
