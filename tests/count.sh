@@ -48,7 +48,7 @@ dam_break_3d|3f|default|16|1|3|0.40
 dam_break_3d_no_books|3f|no_books|16|1|3|0.55
 shifting_2d|2f|shifting|60|2|8|1.35|dam_break_2d
 damper_2d|2f|damper|60|2|8|1.35|dam_break_2d
-plain_2d|2f|plain|60|2|8|1.01
+plain_2d|2f|plain|60|2|8|1.00|plain_2d
 stabilised_2d|2f|stabilised|60|2|8|1.50|plain_2d
 shifting_3d|3f|shifting|16|1|3|1.35|dam_break_3d
 END
