@@ -185,14 +185,15 @@ void sph_make_factors(sph_sim *sim)
 {
     const sph_config *c = &sim->cfg;
     sph_factors *f = &sim->fac;
-    double h = c->smoothing_length, value, slope, support = sph_kernel_support(c->kernel);
+    const double most = sph_largest_h(c), support = sph_kernel_support(c->kernel);
+    double h = c->smoothing_length, value, slope;
     sph_kernel_scales(c->kernel, h, &value, &slope);
     f->inv_h = (sph_real)(1 / h);
     f->eta = (sph_real)(0.01 * h * h); /* keeps pairs at one place finite */
     f->eta_morris = (sph_real)(1e-6 * h * h);
     f->reach = (sph_real)support;
     /* the scalar form skips pairs beyond: all terms are 0 there */
-    f->reach2 = (sph_real)(support * support * h * h * 1.0001);
+    f->reach2 = (sph_real)(support * support * most * most * 1.0001);
     f->slope = (sph_real)slope;
     f->value = (sph_real)value;
     if (sph_repels(c) || sph_is_total(c) || sph_shifts(c)) {

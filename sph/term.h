@@ -57,7 +57,7 @@ typedef struct sph_choice {
     uint8_t form;              /* solids: SPH_STABILISED, SPH_NORMALISED (or corrected), else 0 */
     uint8_t hourglass;         /* control of hourglass modes */
     uint8_t edge;              /* edges that want the velocity gradient with the forces */
-    uint8_t spare[1];
+    uint8_t varies;            /* a smoothing length of each particle */
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 24, "sph_choice is compared as three words (forces.c)");
 SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }
@@ -93,6 +93,7 @@ typedef struct sph_near {
     vreal r2, q, mg, vr;                         /* |x_ij|^2, |K|/h, m_j g, v_ij . x_ij */
     vreal vc, ve;                                /* v_ij . x_ij as continuity takes it; v_ij . ex */
     vreal rho, press, inv_rho;
+    vreal wide, narrow;                          /* h_ij/h and h/h_ij, where h varies (varying.h) */
     vreal inv;                                   /* 1/((r^2 + eta)(rho_i + rho_j)) */
     vreal force;                                 /* a_i -= force ex */
     vreal dw[SPH_DIM], fm, visc;                 /* what viscosity sees as v_ij; Morris: a_i += fm dw; Pi m_j g */

@@ -31,6 +31,7 @@ typedef struct bits_case {
     uint32_t motion;                      /* of a wall that moves: CASE_... */
     bool energy;
     uint32_t edge, layer;                 /* SPH_EDGE_...; thickness of the matched layer, spacings */
+    bool widths;                          /* a smoothing length of each particle */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -234,6 +235,13 @@ static const bits_case bits_cases[] = {
     {"edge_p", CASE_EDGE, .solid = SPH_UPDATED, .edge = SPH_EDGE_P, .books = true},
     {"edge_m", CASE_EDGE, .solid = SPH_TOTAL, .edge = SPH_EDGE_M},
     {"edge_h", CASE_EDGE, .solid = SPH_CORRECTED, .edge = SPH_EDGE_H, .viscosity = SPH_ARTIFICIAL},
+    /* variable smoothing length */
+    {"variable_h", CASE_GAS, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL_APPROACHING, .face = SPH_SYMMETRY,
+     .widths = true, .books = true},
+    {"variable_h_periodic", CASE_GAS, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .scheme = SPH_WEAK,
+     .face = SPH_PERIODIC, .widths = true, .integrator = SPH_KICK_DRIFT_KICK},
+    {"variable_h_morris", CASE_GAS, .kernel = SPH_QUINTIC, .viscosity = SPH_MORRIS, .scheme = SPH_STANDARD_WICK,
+     .face = SPH_MIRROR_NO_SLIP, .widths = true, .books = true, .integrator = SPH_RUNGE_KUTTA},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -315,6 +323,9 @@ static sph_config case_config(const bits_case *b)
     c.hourglass = b->hourglass ? 0.1 : 0;
     c.integrator = b->integrator;
     c.energy = b->energy;
+    c.variable_h = b->widths;
+    c.h_min = b->widths ? 0.9 : c.h_min;
+    c.h_max = b->widths ? 1.05 : c.h_max; /* so that small boxes have three cells */
     c.xsph = b->xsph ? 0.5 : 0;
     c.shepard_every = b->shepard ? 3 : 0;
     c.filter = b->filter;

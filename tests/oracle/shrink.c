@@ -83,6 +83,7 @@ static bool fewer_choices(plan *p, const char *name, difference *d)
     TRY(next.cfg.damping_rate = 0)
     TRY(next.cfg.xsph_velocity = false)
     TRY(next.cfg.edge = SPH_NO_EDGE)
+    TRY(next.cfg.variable_h = false)
     TRY(next.wall_d = 0)
     for (int k = 0; k < SPH_DIM; k++) {
         TRY(next.cfg.gravity[k] = 0)
