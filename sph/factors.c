@@ -180,6 +180,15 @@ static void make_levels(const sph_config *c, sph_factors *f)
     }
 }
 
+/* shifting: (W(0.8 dx)/W(dx))^4, at: W(dx); beyond all where the kernel does not reach a spacing */
+static double pair_bound(const sph_config *c, double at)
+{
+    double w, dw;
+    sph_kernel_value(c->kernel, SPH_SHIFT_APART * c->spacing, c->smoothing_length, &w, &dw);
+    const double near2 = at > 0 ? w / at * (w / at) : 1e15;
+    return near2 * near2;
+}
+
 /* constants of the pair formulas; made at init and when the configuration changes */
 void sph_make_factors(sph_sim *sim)
 {
@@ -200,6 +209,7 @@ void sph_make_factors(sph_sim *sim)
         double at, dw;
         sph_kernel_value(c->kernel, c->spacing, h, &at, &dw);
         f->inv_wdx = at > 0 ? (sph_real)(value / at) : 0;
+        f->apart = sph_shifts(c) ? (sph_real)pair_bound(c, at) : 0;
         f->repulsion = (sph_real)c->stress_epsilon;
         const double density = sph_weak_scheme(c->scheme) ? c->rho0 : 1 / c->rho0;
         f->contact = (sph_real)(2 * c->sound_speed * c->sound_speed * density);

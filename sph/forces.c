@@ -188,7 +188,7 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
     const uint32_t heat = SPH_WITH_ENERGY && c->energy ? SUM_MASK(HEAT) : 0;
     const uint32_t rates = SUM_MASK(DRHO) | gradient | heat;
     const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
-                            (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS) : 0) |
+                            (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS - (c->shifting > 1 ? 0 : SPH_DIM)) : 0) |
                             (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0) |
                             (c->edge ? gradient : 0);
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
@@ -583,7 +583,7 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .part = (uint8_t)part,
                         .form = (uint8_t)form_of(c, forces),
                         .hourglass = forces && sph_resists_hourglass(c),
-                         .shifting = forces && sph_shifts(c),
+                         .shifting = (uint8_t)(forces && sph_shifts(c) ? 1 + c->shift_pairs : 0),
                          .shear = viscous && sph_shears(c),
                          .edge = forces && sph_replaces(c),
                          .energy = sph_has_energy(c),

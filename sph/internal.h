@@ -113,6 +113,7 @@ typedef struct sph_factors {
     sph_real value_slope;        /* forms of solids: the scale of W over that of its slope */
     sph_real edge[SPH_LEVELS];   /* stabilised: what S has between rows below a face */
     sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
+    sph_real apart;              /* shift_pairs: (W/W(dx))^4 of pairs that are moved apart is above it */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real least_rho;          /* diffusion: of a neighbour, rho0/2 (tiles.c) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;

@@ -298,7 +298,8 @@ enum {
    as alpha 0.005. Deep inside density goes slowly to where the particles' volumes fill space, so that a tank does not
    swell. Momentum stays, angular momentum does not; what is taken of potential and internal energy is `shifted` in
    sph_totals, with or without books (where density is summed, of the potential energy only). Not in scenes with
-   solids. SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
+   solids. SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. With shift_pairs particles near a surface, which are not shifted
+   else, are moved off those that are closer than 0.8 dx: keeps rows apart that the flow squeezes there. */
 
 /* Acoustic damper, `damper` its theta, 0: off: in the momentum equation and in what Adami's walls see the pressure is
    p + theta h c0 d(rho)/dt, at least 0 with the pressure floor: a bulk viscosity theta h c0, which sound feels and flow
@@ -434,7 +435,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 /* sums of a velocity gradient, or of shifting */
 #define SPH_TENSOR_SUMS_                                                                                    \
     SPH_MAX_(SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0u,                                                       \
-             SPH_WITH_SHIFTING ? SPH_DIM + 1u + SPH_DIM * (SPH_DIM + 1u) / 2u : 0u)
+             SPH_WITH_SHIFTING ? 2u * SPH_DIM + 1u + SPH_DIM * (SPH_DIM + 1u) / 2u : 0u)
 #define SPH_SCRATCH_BYTES /* a thread */                                                                    \
     (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 86016u) +                                            \
       (SPH_TENSOR_SUMS_ + (SPH_WITH_ENERGY ? 1u : 0u)) * 512u) * (SPH_DOUBLE ? 2u : 1u))

@@ -24,7 +24,7 @@
     X(BOUNDARY, 1)                                                                                                 \
     X(GRADIENT, SPH_MAX_(SPH_WITH_SOLID ? SPH_NL : 0, SPH_WITH_SHIFTING ? SPH_SHIFT_ROWS : 0))
 /* without solids that room is for shifting (shift_sums.h) */
-#define SPH_SHIFT_ROWS (SPH_DIM + 1 + SPH_NT)
+#define SPH_SHIFT_ROWS (SPH_DIM + 1 + SPH_NT + SPH_DIM) /* the last SPH_DIM: shift_pairs */
 enum {
 #define SPH_SUM_ENUM(name, rows) SUM_##name, SUM_##name##_LAST = SUM_##name + (rows) - 1,
     SPH_FORCE_SUMS(SPH_SUM_ENUM)
@@ -32,7 +32,8 @@ enum {
         SUM_ROWS,
     SUM_SHIFT = SUM_GRADIENT,
     SUM_COVER = SUM_SHIFT + SPH_DIM,
-    SUM_SPREAD = SUM_COVER + 1
+    SUM_SPREAD = SUM_COVER + 1,
+    SUM_NEARER = SUM_SPREAD + SPH_NT
 };
 #define SUM_MASK(name) SPH_SUM_MASK(SUM_##name, SUM_##name##_LAST + 1 - SUM_##name)
 _Static_assert(SUM_ROWS <= SPH_SUMS, "SPH_SUMS is too small");

@@ -21,7 +21,7 @@ typedef struct bits_case {
     bool hat, held, beside;               /* strain rates smoothed; one end held and pulled; a gas beside the rock */
     uint32_t gradient;
     uint32_t sponge;                      /* SPONGE_... */
-    bool shifting;
+    bool shifting, apart;                 /* apart: close pairs near a surface, too */
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
     bool hourglass;
@@ -235,6 +235,10 @@ static const bits_case bits_cases[] = {
     {"edge_p", CASE_EDGE, .solid = SPH_UPDATED, .edge = SPH_EDGE_P, .books = true},
     {"edge_m", CASE_EDGE, .solid = SPH_TOTAL, .edge = SPH_EDGE_M},
     {"edge_h", CASE_EDGE, .solid = SPH_CORRECTED, .edge = SPH_EDGE_H, .viscosity = SPH_ARTIFICIAL},
+    /* shifting of close pairs near a surface */
+    {"shift_pairs", CASE_BASE, .shifting = true, .apart = true, .books = true},
+    {"shift_pairs_kick_drift_kick", CASE_BASE, .shifting = true, .apart = true, .integrator = SPH_KICK_DRIFT_KICK,
+     .scheme = SPH_WEAK, .floor = true},
     /* variable smoothing length */
     {"variable_h", CASE_GAS, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL_APPROACHING, .face = SPH_SYMMETRY,
      .widths = true, .books = true},
@@ -358,6 +362,7 @@ static sph_config case_config(const bits_case *b)
     }
     case_sponge(&c, b->sponge);
     c.shifting = b->shifting ? 0.5 : 0;
+    c.shift_pairs = b->apart;
     c.max_flows = b->flow ? 2 : 0;
     c.damper = b->quiet ? 0.2 : 0;
     c.damping_rate = b->slowed ? 30 : 0;

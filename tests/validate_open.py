@@ -206,10 +206,9 @@ def add_tubes(add, quick):
 
 def add_patches(add, quick):
     """B3: the rotating patch at t w = 2, with and without shifting"""
-    for shifting in (0, 0.5):
-        run = Run("rotating_patch", n=30 if quick else 60, shifting=shifting)
-        word = "with" if shifting else "without"
-        add(f"B3 {word} shifting nearest pair", "dx", (">=", 0.6) if shifting else None, [run],
+    for shifting, pairs, word in ((0, "no", "without"), (0.5, "no", "with"), (0.5, "yes", "with pairs in")):
+        run = Run("rotating_patch", n=30 if quick else 60, shifting=shifting, shift_pairs=pairs)
+        add(f"B3 {word} shifting nearest pair", "dx", (">=", 0.6) if pairs == "yes" else None, [run],
             lambda r: last(r, "nearest"))
         add(f"B3 {word} shifting longest arm", "sides", None, [run], lambda r: last(r, "arm"))
         add(f"B3 {word} shifting pressure in the middle at the start", "of exact", None, [run],

@@ -408,7 +408,7 @@ static void draw_widths(plan *p)
     own.gradient = SPH_PLAIN;
     own.diffusion = SPH_NO_DIFFUSION;
     own.xsph = own.shifting = own.shepard_every = 0;
-    own.xsph_velocity = false;
+    own.xsph_velocity = own.shift_pairs = false;
     own.shear = SPH_NO_SHEAR;
     if (sph_config_check(&own, NULL) == SPH_OK) /* the domain may be too small for its cells */
         p->cfg = own;
@@ -437,6 +437,7 @@ void plan_draw(plan *p, uint64_t seed)
         if (p->cfg.sponge_low[k] > 0 || p->cfg.sponge_high[k] > 0)
             p->cfg.sponge_rate = range(0.1, 3) * p->cfg.sound_speed / p->cfg.spacing / (p->still_step ? PLAN_STILL : 1);
     p->cfg.shifting = p->cfg.solid == SPH_NO_SOLID && !p->still_step && chance(0.4) ? range(0.1, 4) : 0;
+    p->cfg.shift_pairs = p->cfg.shifting > 0 && chance(0.5);
     if (p->cfg.shifting > 0 && !SPH_DOUBLE) /* it pushes hard, and its bounds switch: rounding errors of floats grow */
         p->steps = (uint32_t)o_min(p->steps, 5);
     const bool corrects = p->cfg.solid == SPH_CORRECTED || p->cfg.solid == SPH_TOTAL;
