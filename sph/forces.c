@@ -187,8 +187,9 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
     const uint32_t gradient = SPH_WITH_SOLID && c->solid ? SPH_SUM_MASK(SUM_GRADIENT, SPH_NL) : 0;
     const uint32_t heat = SPH_WITH_ENERGY && c->energy ? SUM_MASK(HEAT) : 0;
     const uint32_t rates = SUM_MASK(DRHO) | gradient | heat;
+    const uint32_t shifts = SPH_SHIFT_ROWS - (c->shifting > 1 ? 0u : SPH_DIM); /* without NEARER */
     const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
-                            (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS - (c->shifting > 1 ? 0 : SPH_DIM)) : 0) |
+                            (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, shifts) : 0) |
                             (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0) |
                             (c->edge ? gradient : 0);
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);

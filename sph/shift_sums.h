@@ -3,7 +3,7 @@
    of a rho that is at least rho0/2: tiles.c), over fluid, walls and images behind faces:
 
      SHIFT    sum V_j [1 + 0.2 (W/W(dx))^4] g x_ij    the slope of disorder; the bracket keeps pairs from clumping
-     NEARER   sum V_j [(W/W(dx))^4 - (W(0.8 dx)/W(dx))^4] g x_ij over pairs for which the bracket is above 0 (shift_pairs)
+     NEARER   sum V_j [(W/W(dx))^4 - (W(0.8 dx)/W(dx))^4] g x_ij, where that bracket is above 0 (shift_pairs)
      COVER    sum V_j W                                1 inside the fluid, less where a part of the support is empty
      SPREAD   sum V_j g x_ij (x) x_ij                  minus the unit tensor inside; at a surface one eigenvalue falls
 

@@ -52,7 +52,7 @@ typedef struct sph_choice {
     uint8_t summed;            /* density by summation */
     uint8_t part;              /* SPH_PART_... */
     uint8_t apart;             /* the factors are of one kind of pairs */
-    uint8_t shifting;          /* the sums of shifting */
+    uint8_t shifting;          /* the sums of shifting; 2: of close pairs, too */
     uint8_t shear;             /* a viscous stress */
     uint8_t energy;            /* the energy equation */
     uint8_t form;              /* solids: SPH_STABILISED, SPH_NORMALISED (or corrected), else 0 */
