@@ -32,7 +32,7 @@ sph_status sph_check_smoothing_length(const sph_config *c, sph_report *r)
     if (!c->variable_h)
         return SPH_OK;
     if (c->eos != SPH_IDEAL_GAS)
-        return sph_refuse(r, "variable_h", "false unless eos is SPH_IDEAL_GAS", c->eos);
+        return sph_refuse(r, "variable_h", "false unless eos is SPH_IDEAL_GAS", 1);
     if (sph_sums_density(c) || sph_filters(c))
         return sph_refuse(r, "variable_h", "false where density is summed or filtered", 1);
     if (sph_corrects_fluids(c) || sph_shears(c))

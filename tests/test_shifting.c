@@ -102,7 +102,7 @@ static sums sums_at(const sph_sim *sim, const sph_config *c, const double *x)
             s.cover += v * w;
             for (int k = 0; k < SPH_DIM; k++) {
                 s.slope[k] += v * (1 + 0.2 * f * f * f * f) * g * (x[k] - y[k]);
-                s.nearer[k] += v * 0.2 * fmax(0, pow(f, 4) - pow(w_apart / w_dx, 4)) * g * (x[k] - y[k]);
+                s.nearer[k] += v * 0.5 * fmax(0, pow(f, 4) - pow(w_apart / w_dx, 4)) * g * (x[k] - y[k]);
                 for (int l = 0; l < SPH_DIM; l++)
                     s.spread[k][l] -= v * g * (x[k] - y[k]) * (x[l] - y[l]);
             }

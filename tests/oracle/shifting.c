@@ -7,7 +7,7 @@
      dx_i = -C dt v_max 4h slope_i, cut to 0.05 dx, where cover > 0.9 and all eigenvalues of M are above 0.75
      rho_i += rho_i min(C dt v_max/h, 1/2) (cover - 1) where they are above 0.98, unless densities are summed; not
               where that would be all of rho or more
-   with shift_pairs, where the first is not: dx_i with 0.2 sum V_j max(0, (W/W(dx))^4 - (W(0.8 dx)/W(dx))^4) grad W
+   with shift_pairs, where the first is not: dx_i with 0.5 sum V_j max(0, (W/W(dx))^4 - (W(0.8 dx)/W(dx))^4) grad W
    v_max: of the fluid, when the last forces were made. A periodic face lets round, a mirror takes the mirrored
    particle, and nobody goes through an open one. Velocities stay else. What potential and internal energy lose is the
    book `shifted`. */
@@ -19,8 +19,8 @@ static void sum_close(const o_scene *s, const o_pair *p, double w_dx, o_sum *nea
     const double at = o_weight(s->cfg.kernel, 0.8 * s->cfg.spacing, s->cfg.smoothing_length);
     if (!(w_dx > 0))
         return;
-    const double bound = pow(at / w_dx, 4), more = 0.2 * o_max(0, pow(p->w / w_dx, 4) - bound);
-    const double most = 0.2 * (pow(p->value / w_dx, 4) + bound);
+    const double bound = pow(at / w_dx, 4), more = 0.5 * o_max(0, pow(p->w / w_dx, 4) - bound);
+    const double most = 0.5 * (pow(p->value / w_dx, 4) + bound);
     for (int k = 0; k < SPH_DIM; k++)
         o_add(&nearer[k], -p->volume * more * p->g * p->x[k], p->volume * most * p->slope);
 }
