@@ -41,7 +41,7 @@ SPH_OBJECT(shifting)
 #define LEAST_SPREAD ((sph_real)0.75)
 #define DEEP_SPREAD ((sph_real)0.98)
 #define MOST_SPACINGS 0.05
-#define PAIRS ((sph_real)0.5) /* with the 0.2 of the bracket the square's pairs come to 0.55 spacings, with this to 0.64 */
+#define PAIRS ((sph_real)0.5) /* with 0.2, as in the bracket, pairs of that square come to 0.55 dx, with 0.5 to 0.64 */
 
 sph_status sph_check_shifting(const sph_config *c, sph_report *r)
 {
