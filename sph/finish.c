@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* finish.c: what becomes of a home's sums in the force sweep (forces.c): its acceleration with gravity and the host's
    body force, its rate of density, XSPH's velocity, and its powers for the books. Arrays: the state's acc, drho, xsph
-   and the powers. Cost: a few folds of eight lanes a particle. */
+   and the powers. Cost: a few folds of eight lanes a particle, 8 % of a step's instructions. For all homes of a cell at
+   once, in vectors of four, a default dam break has 1.9 % fewer, for a second text of all this: not done. */
 #include "finish.h"
 
 #include "boundary.h"

@@ -32,6 +32,11 @@ enum { JUMP_HELD = SPH_POWERS, JUMP_REMOVED, JUMP_RELEASED, JUMP_PUT_BACK, JUMP_
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
 /* a sum of squares above this counts as not finite: a float has room for a factor of 1e8 beyond */
 #define SPH_LIMIT_SQUARE ((sph_real)1e30)
+/* Strips of that many cells, one after the other: where no particle is in one or beside it, nothing is stored but where
+   slabs begin (sort.c). What is true of a strip: */
+#define SPH_STRIP 32u
+enum { SPH_PEOPLED = 1, SPH_STORED = 2 };
+#define SPH_STRIPS (SPH_WITH_SKIP_EMPTY && SPH_DIM > 1)
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
 
 /* one particle set: constants that its particles share */
@@ -636,6 +641,29 @@ SPH_INLINE uint32_t sph_cell_of(const sph_sim *sim, const sph_pos *q)
     for (uint32_t k = SPH_DIM; k-- > 0;)
         c = c * sim->grid.ncell[k] + sph_cell_axis(sim, k, q[k]);
     return c;
+}
+
+/* the first of the cells c .. end - 1 that stands in a strip of which that much is true; end: none does */
+SPH_INLINE uint32_t sph_skip(const sph_sim *sim, uint32_t c, uint32_t end, uint8_t what)
+{
+    if (!SPH_STRIPS || c >= end || sim->strip[c / SPH_STRIP] & what)
+        return c;
+    uint32_t s = c / SPH_STRIP;
+    const uint32_t last = (end - 1) / SPH_STRIP;
+    for (uint64_t eight; s <= last; s += 8) {
+        memcpy(&eight, sim->strip + s, sizeof eight);
+        if (eight & what * (uint64_t)0x0101010101010101)
+            break;
+    }
+    while (s <= last && !(sim->strip[s] & what))
+        s++;
+    return s <= last ? s * SPH_STRIP : end;
+}
+/* the end of a cell's strip, or of the cells that are asked for */
+SPH_INLINE uint32_t sph_strip_end(uint32_t c, uint32_t end)
+{
+    const uint32_t e = (c / SPH_STRIP + 1) * SPH_STRIP;
+    return SPH_STRIPS && e < end ? e : end;
 }
 
 #endif

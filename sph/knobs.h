@@ -13,6 +13,9 @@
 #define SPH_WITH_FAST_PATHS SPH_WITH_ALL
 #endif
 #endif
+#ifndef SPH_WITH_SKIP_EMPTY
+#define SPH_WITH_SKIP_EMPTY SPH_WITH_ALL
+#endif
 #ifndef SPH_WITH_CUBIC
 #define SPH_WITH_CUBIC SPH_WITH_ALL
 #endif

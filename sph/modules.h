@@ -12,6 +12,7 @@
 
 #define SPH_KNOBS(X)                                                                                       \
     X(FAST_PATHS, 1) /* inner loops compiled apart for common choices: same bits, more speed, more code */ \
+    X(SKIP_EMPTY, SPH_DIM > 1) /* room without particles is passed over: 1 byte for 32 cells */            \
     X(CUBIC, 1) /* smoothing kernels */                                                                    \
     X(QUARTIC, 1)                                                                                          \
     X(QUINTIC, 1)                                                                                          \

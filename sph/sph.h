@@ -457,6 +457,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FORMS) ? (size_t)(threads) * SPH_FORMS_SCRATCH_BYTES : 0u) +                            \
      (((use)&SPH_USE_FLOW) ? 2048u : 0u) +                                                                  \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
+     (size_t)(cells) / 32u + 64u + /* strips */                                                             \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
          (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING | SPH_USE_DAMPER | SPH_USE_EDGES)) ? 64u : 0u) +       \
      (((use)&SPH_USE_EDGES) ? 8192u : 0u))
