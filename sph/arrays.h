@@ -38,6 +38,7 @@
     ONE(taken, uint8_t, c->max_particles, sph_has_flows(c), "ids in use") /* flow.c */                                \
     ONE(births, uint32_t, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_has_flows(c), "births of chunks")               \
     MANY(disorder, sph_real, SPH_DIM + 1, SPH_ROOM(c), sph_shifts(c), "disorder") /* shifting.c */                    \
+    ONE(wide, sph_real, SPH_ROOM(c), sph_varies_h(c), "smoothing lengths")                                            \
     ONE(damper_press, sph_real, SPH_ROOM(c), sph_quiets(c), "pressure of the damper")                                 \
     ONE(damper_loss, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_quiets(c), "energy of the damper, of chunks") \
     ONE(slowing, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_slows(c), "energy of damping, of chunks")       \

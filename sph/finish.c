@@ -12,6 +12,7 @@
 #include "shift_sums.h"
 #include "stress.h"
 #include "term.h"
+#include "varying.h"
 #include "arithmetic.h"
 
 SPH_OBJECT(finish)
@@ -195,7 +196,7 @@ SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
         sph_finish_shift(sim, t, h);
     const sph_real mu = v_fold_max(t->sum[SUM_MU][h]);
     t->peaks.mu = larger(t->peaks.mu, sph_has_energy(&sim->cfg) ? sph_energy_mu(sim, t, h, mu) : mu);
-    t->peaks.acc = larger(t->peaks.acc, a2);
+    t->peaks.acc = larger(t->peaks.acc, sph_told_acc(sim, t, h, a2));
     t->peaks.speed = larger(t->peaks.speed, v2);
     return a2;
 }

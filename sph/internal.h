@@ -118,6 +118,7 @@ typedef struct sph_factors {
     sph_real value_slope;        /* forms of solids: the scale of W over that of its slope */
     sph_real edge[SPH_LEVELS];   /* stabilised: what S has between rows below a face */
     sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
+    sph_real apart;              /* shift_pairs: (W/W(dx))^4 of pairs that are moved apart is above it */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real least_rho;          /* diffusion: of a neighbour, rho0/2 (tiles.c) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
@@ -344,6 +345,12 @@ SPH_INLINE bool sph_is_matched(const sph_config *c) { return sph_has_edges(c) &&
 SPH_INLINE bool sph_replaces(const sph_config *c) { return SPH_HAS_EDGES && c->edge >= SPH_EDGE_P; }
 SPH_INLINE bool sph_shears(const sph_config *c) { return SPH_WITH_SHEAR && c->shear != SPH_NO_SHEAR; }
 SPH_INLINE bool sph_has_energy(const sph_config *c) { return SPH_WITH_ENERGY && c->energy; }
+SPH_INLINE bool sph_varies_h(const sph_config *c) { return SPH_WITH_VARIABLE_H && sph_has_energy(c) && c->variable_h; }
+/* the largest smoothing length that a particle may have (m) */
+SPH_INLINE double sph_largest_h(const sph_config *c)
+{
+    return sph_varies_h(c) ? c->h_max * c->smoothing_length : c->smoothing_length;
+}
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
 SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }
@@ -422,6 +429,9 @@ SPH_INLINE double sph_energy_sum(const sph_sim *sim, const sph_buffer *b, uint32
     const sph_energy e = sph_energy_of(sim, b, i);
     return e.kinetic + e.potential + e.internal + e.elastic + e.plastic;
 }
+/* smoothing_length.c: h over the configuration's, of a particle of a set with a density excess d, where it varies */
+#define sph_relative_h SPH_NAME(relative_h_)
+double sph_relative_h(const sph_sim *sim, const sph_set *set, double d);
 #define sph_hash_buffer SPH_NAME(hash_buffer_)
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n);
 

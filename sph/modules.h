@@ -43,6 +43,7 @@
     X(RENORMALISED, 1)                                                                                     \
     X(SHEAR, 1) /* viscous stress of fluids: nested gradients, large eddies */                             \
     X(ENERGY, 1) /* energy equation, ideal gas */                                                          \
+    X(VARIABLE_H, SPH_WITH_ENERGY) /* a smoothing length of each particle */                               \
     X(PREDICTOR_CORRECTOR, 1) /* integrators */                                                            \
     X(KICK_DRIFT_KICK, 1)                                                                                  \
     X(LEAP_FROG, 1)                                                                                        \
