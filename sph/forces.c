@@ -4,6 +4,7 @@
 
      continuity.h   rate of density             viscosity.h    artificial, Morris            diffusion.h    of density
      pressure.h     force of the pressure       stress.h       force of the stress, and the velocity gradient
+     density_gradient.h  what diffusion after Antuono takes off
      gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
      shear.h        viscous stress              xsph.h         drift beside the velocity   pair_power.h   the books
      shift_sums.h   disorder                    energy.h       heat, sound of each particle
@@ -17,6 +18,7 @@
    a force evaluation. */
 #include "boundary.h"
 #include "continuity.h"
+#include "density_gradient.h"
 #include "diffusion.h"
 #include "energy.h"
 #include "factors.h"
@@ -47,9 +49,10 @@ typedef struct at_home {
     const sph_mirror_tile *mirror;
     const sph_stress_tile *stress;
     const sph_reference_tile *reference;
-    const sph_real *smoothed, *corrected, *sheared, *sounds;
+    const sph_real *smoothed, *corrected, *sheared, *sounds, *steepness;
     const sph_home *home;
     const sph_gradient_home *gradient;
+    const vreal *slope; /* G of density_gradient.c */
     const sph_shear_home *shear;
     const sph_energy_home *energy;
     const sph_stress_home *solid;
@@ -157,7 +160,7 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     if (sph_takes_forces(c))
         momentum(c, &p, s);
     sph_shear_force(c, o->home, o->mirror, o->shear, o->sheared, &p, s);
-    sph_diffusion(c, o->f, o->home, &p, s);
+    sph_diffusion(c, o->f, o->home, o->slope, o->steepness, &p, s);
     sph_heat(c, o->energy, &p, s);
     sph_xsph(c, o->home, &p, s);
     sph_pair_power(c, o->home, &p, s);
@@ -229,6 +232,12 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
     if (SPH_HAS_FLUID_GRADIENT && c->gradient) {
         o.corrected = sph_near_columns_of(sim, t, SPH_COLUMN_gradient);
         gradient = sph_spread_gradient(c, sim, t, h);
+    }
+    vreal slope[SPH_DIM];
+    if (SPH_IS(c->diffusion, ANTUONO) && !wall) {
+        o.steepness = sph_near_columns_of(sim, t, SPH_COLUMN_density_gradient);
+        sph_spread_density_gradient(sim, t, h, slope);
+        o.slope = slope;
     }
     sph_shear_home shear;
     if (SPH_WITH_SHEAR && c->shear) {
@@ -374,6 +383,9 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
     X(r_w2_w, .kernel = SPH_WENDLAND_C2, .wall = 1, .part = SPH_PART_RATES)                                        \
     X(r_w2_h, .kernel = SPH_WENDLAND_C2, .diffusion = SPH_HYDROSTATIC, .part = SPH_PART_RATES)                     \
     X(r_w2_hw, .kernel = SPH_WENDLAND_C2, .diffusion = SPH_HYDROSTATIC, .wall = 1, .part = SPH_PART_RATES)         \
+    X(r_w2_d, .kernel = SPH_WENDLAND_C2, .diffusion = SPH_ANTUONO, .part = SPH_PART_RATES)                         \
+    X(f_w2_db, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_ANTUONO, .books = 1,       \
+      .part = SPH_PART_FORCES)                                                                                     \
     X(r_cubic, .kernel = SPH_CUBIC, .part = SPH_PART_RATES)                                                        \
     X(f_w2, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .part = SPH_PART_FORCES)                       \
     X(f_w2_w, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = 1, .part = SPH_PART_FORCES)          \
@@ -387,6 +399,10 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
     X(r_c_w, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .wall = 1, .part = SPH_PART_RATES)              \
     X(r_c_h, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .diffusion = SPH_HYDROSTATIC,                   \
       .part = SPH_PART_RATES)                                                                                      \
+    X(r_c_d, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .diffusion = SPH_ANTUONO,                       \
+      .part = SPH_PART_RATES)                                                                                      \
+    X(f_c_db, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                   \
+      .diffusion = SPH_ANTUONO, .books = 1, .part = SPH_PART_FORCES)                                               \
     X(r_c_hw, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .diffusion = SPH_HYDROSTATIC, .wall = 1,       \
       .part = SPH_PART_RATES)                                                                                      \
     X(f_c, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                      \
@@ -575,6 +591,8 @@ static void find_fast_paths(const sph_sim *sim, sph_thread *t)
     for (uint32_t wall = 0; wall < 2; wall++) {
         sph_choice c = choice_of(sim, wall);
         c.apart = SPH_HAS_APART && sph_asks_apart(sim);
+        if (wall && SPH_IS(c.diffusion, ANTUONO) && SPH_WITH_HYDROSTATIC)
+            c.diffusion = SPH_HYDROSTATIC; /* into walls there is none of either */
         t->fast_path[wall] = fast_path_of(&c);
     }
 }
@@ -630,6 +648,7 @@ static uint32_t columns_of(const sph_choice *c)
 {
     const bool forces = sph_takes_forces(c), gradient = c->gradient && (forces || !SPH_IS(c->gradient, BONET_LOK));
     return (SPH_HAS_LAYERED_WALLS && (sph_viscous(c->viscosity) || c->shear) ? 1u << SPH_COLUMN_mirror : 0) |
+           (SPH_IS(c->diffusion, ANTUONO) ? 1u << SPH_COLUMN_density_gradient : 0) |
            (c->shear ? 1u << SPH_COLUMN_shear : 0) | (SPH_WITH_ENERGY && c->energy ? 1u << SPH_COLUMN_energy : 0) |
            (c->hourglass ? 1u << SPH_COLUMN_deform : 0) |
            (sph_stabilised(c) ? 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_drawn | 1u << SPH_COLUMN_means : 0) |

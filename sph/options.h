@@ -96,7 +96,7 @@
     P(A, subgrid, REAL, 0.0066, 0, 10, true, "0 .. 10", FIXED, "-",                                                    \
       "C_I of the eddies' pressure", "ci", "-", 0, 10, USUAL)                                                         \
     P(A, diffusion, CHOICE, SPH_NO_DIFFUSION, 0, SPH_DIFFUSIONS, SPH_DIFFUSIONS_IN,                                   \
-      "one of SPH_NO_DIFFUSION .. SPH_HYDROSTATIC", FIXED, "-", "density diffusion: none molteni hydrostatic",        \
+      "one of SPH_NO_DIFFUSION .. SPH_ANTUONO", FIXED, "-", "density diffusion: none molteni hydrostatic antuono",    \
       "diffusion", "-", 0, SPH_DIFFUSIONS - 1, OWN)                                                                   \
     P(A, delta, REAL, 0.1, 0, 10, true, "0 .. 10", FIXED, "-", "strength of the density diffusion",                   \
       "delta", "-", 0, 10, OWN)                                                                                     \

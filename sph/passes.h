@@ -27,6 +27,9 @@
 #define sph_pass_smooth SPH_NAME(pass_smooth_)
 #define sph_pass_gradient SPH_NAME(pass_gradient_)
 #define sph_pass_shear SPH_NAME(pass_shear_)
+/* density_gradient.c */
+#define sph_pass_density_gradient SPH_NAME(pass_density_gradient_)
+extern const sph_pass sph_pass_density_gradient;
 /* stabilised.c, normalised.c, hourglass.c */
 #define sph_pass_edge SPH_NAME(pass_edge_)
 #define sph_pass_rows SPH_NAME(pass_rows_)

@@ -207,9 +207,12 @@ enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH
    to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi = (rho_j -
    rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
    two positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so still
-   water stays still. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial
+   water stays still. ANTUONO: the mean of the two particles' renormalised gradients of density (kg/m^4) times
+   r_ji is taken off, so that no linear field of density feels any, whatever made it (Antuono, Colagrossi, Marrone &
+   Molteni 2010); images in faces across which gravity pulls have no part in it; SPH_DIM reals a particle
+   (SPH_USE_ANTUONO) and a sweep; not with solids. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial
    viscosity the mean of both. */
-enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
+enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_ANTUONO, SPH_DIFFUSIONS };
 
 /* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of
    density, and the pressure force that does the same work (Bonet & Lok 1999; schemes STANDARD and WEAK); momentum,
@@ -395,6 +398,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_ENERGY 32768u /* the energy equation */
 #define SPH_USE_EDGES 65536u /* edges that let waves out, with a matched layer or without */
 #define SPH_USE_FORMS 131072u /* SPH_STABILISED, SPH_NORMALISED, SPH_NORMALISED_CORRECTED, or hourglass */
+#define SPH_USE_ANTUONO 8388608u /* density diffusion after Antuono */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
@@ -412,6 +416,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_SHEAR) ? (SPH_DIM * SPH_DIM + 1u) * SPH_REAL_ : 0u) +                                  \
+     (((use)&SPH_USE_ANTUONO) ? SPH_DIM * SPH_REAL_ : 0u) +                                                 \
      (((use)&SPH_USE_ENERGY) ? 2u * SPH_REAL_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +             \
      (((use)&SPH_USE_FORMS) ? (SPH_DIM * SPH_DIM + SPH_DIM + 2u) * SPH_REAL_ : 0u) +                        \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
@@ -434,6 +439,8 @@ size_t sph_arena_bytes(const sph_config *cfg);
     ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SHEAR_SCRATCH_BYTES /* with a viscous stress besides */                                          \
     ((SPH_DIM * SPH_DIM + 1u) * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_)
+#define SPH_ANTUONO_SCRATCH_BYTES /* with that diffusion besides */                                          \
+    (SPH_DIM * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_ + 64u)
 #define SPH_ENERGY_SCRATCH_BYTES /* with the energy equation besides */                                     \
     ((SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_ + 64u)
 #define SPH_FORMS_SCRATCH_BYTES /* with such a form besides */                                              \
@@ -442,6 +449,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      (((use)&SPH_USE_SHEAR) ? (size_t)(threads) * SPH_SHEAR_SCRATCH_BYTES : 0u) +                            \
+     (((use)&SPH_USE_ANTUONO) ? (size_t)(threads) * SPH_ANTUONO_SCRATCH_BYTES : 0u) +                        \
      (((use)&SPH_USE_ENERGY) ? (size_t)(threads) * SPH_ENERGY_SCRATCH_BYTES : 0u) +                          \
      (((use)&SPH_USE_FORMS) ? (size_t)(threads) * SPH_FORMS_SCRATCH_BYTES : 0u) +                            \
      (((use)&SPH_USE_FLOW) ? 2048u : 0u) +                                                                  \

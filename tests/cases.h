@@ -224,6 +224,14 @@ static const bits_case bits_cases[] = {
      .integrator = SPH_KICK_DRIFT_KICK},
     {"heat_of_morris", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .slip_less = true,
      .compressible = true, .energy = true, .gradient = SPH_BONET_LOK},
+    /* density diffusion after Antuono */
+    {"antuono", CASE_BASE, .diffusion = SPH_ANTUONO, .books = true},
+    {"antuono_kick_drift_kick", CASE_BASE, .diffusion = SPH_ANTUONO, .integrator = SPH_KICK_DRIFT_KICK,
+     .gradient = SPH_BONET_LOK, .floor = true, .books = true},
+    {"antuono_weak_symmetry", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST,
+     .diffusion = SPH_ANTUONO, .scheme = SPH_WEAK, .face = SPH_SYMMETRY, .integrator = SPH_RUNGE_KUTTA},
+    {"antuono_periodic", CASE_BASE, .diffusion = SPH_ANTUONO, .face = SPH_PERIODIC, .integrator = SPH_LEAP_FROG},
+    {"antuono_no_slip", CASE_BASE, .diffusion = SPH_ANTUONO, .face = SPH_MIRROR_NO_SLIP},
     /* edges that let waves out */
 #define CASE_EDGE .kernel = SPH_CUBIC, .wall = CASE_NO_WALL, .integrator = SPH_KICK_DRIFT_KICK
     {"edge_natural", CASE_EDGE, .solid = SPH_TOTAL, .edge = SPH_EDGE_NATURAL, .books = true},

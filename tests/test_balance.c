@@ -265,10 +265,10 @@ static void choose_wall(scene *s, uint32_t w)
 }
 
 /* what a fluid may have besides */
-enum { EXTRAS = 8 };
+enum { EXTRAS = 9 };
 static bool choose_extra(scene *s, uint32_t e)
 {
-    s->diffusion = e == 1 ? SPH_MOLTENI : e == 2 ? SPH_HYDROSTATIC : SPH_NO_DIFFUSION;
+    s->diffusion = e == 1 ? SPH_MOLTENI : e == 2 ? SPH_HYDROSTATIC : e == 8 ? SPH_ANTUONO : SPH_NO_DIFFUSION;
     s->gradient = e == 3 ? SPH_BONET_LOK : e == 4 ? SPH_RENORMALISED : SPH_PLAIN;
     s->xsph = e == 5;
     s->eos = e == 6 ? SPH_ISOTHERMAL : e == 7 ? SPH_LINEAR : SPH_TAIT;

@@ -111,6 +111,7 @@ void o_forces(o_scene *s)
 {
     o_refresh(s);
     o_adami(s);
+    o_find_slopes(s);
     o_correct(s);
     o_weigh(s);
     if (o_has_solids(s))

@@ -66,7 +66,7 @@ static void draw_usual(plan *p)
     c->viscosity = SPH_ARTIFICIAL;
     c->beta = 0;
     c->xsph = 0;
-    c->diffusion = c->solid == SPH_NO_SOLID && chance(0.5) ? SPH_HYDROSTATIC : SPH_NO_DIFFUSION;
+    c->diffusion = c->solid == SPH_NO_SOLID && chance(0.5) ? SPH_HYDROSTATIC + pick(2) : SPH_NO_DIFFUSION;
     c->gradient = c->solid == SPH_NO_SOLID && chance(0.3) ? SPH_BONET_LOK : SPH_PLAIN;
     c->artificial_stress = c->solid == SPH_NO_SOLID || c->solid >= SPH_TOTAL ? 0 : pick(SPH_ARTIFICIAL_STRESSES);
     c->stress_exponent = 4;
@@ -103,6 +103,8 @@ static void draw_choices(plan *p)
         c->gradient = SPH_PLAIN;
         draw_solids(p);
     }
+    if (c->solid != SPH_NO_SOLID && c->diffusion == SPH_ANTUONO)
+        c->diffusion = SPH_MOLTENI;
     if (chance(0.35))
         draw_usual(p);
     if (c->solid == SPH_NO_SOLID && c->viscosity != SPH_MORRIS && chance(0.3)) {
@@ -450,7 +452,7 @@ void plan_print(const plan *p)
         {"cubic", "quartic", "quintic", "gaussian", "wendland c2", "wendland c4", "hat"},
         {"standard", "weak", "direct", "standard_wick", "weak_wick"},
         {"inviscid", "artificial", "approaching", "morris"},
-        {"no diffusion", "molteni", "hydrostatic"},
+        {"no diffusion", "molteni", "hydrostatic", "antuono"},
         {"plain", "bonet_lok", "renormalised"},
         {"no solid", "updated", "corrected", "total", "stabilised", "normalised", "normalised_corrected"},
         {"tait", "tait_gray", "linear", "isothermal", "ideal_gas"},
