@@ -597,17 +597,28 @@ static void find_fast_paths(const sph_sim *sim, sph_thread *t)
     }
 }
 
+/* whether some wall moves, and so may move by another */
+static bool walls_move(const sph_sim *sim)
+{
+    bool moves = false;
+    for (uint32_t g = 0; g < SPH_MAX_GROUPS && SPH_WITH_MOVING_WALLS; g++)
+        moves |= sim->group[g].motion != NULL;
+    return moves;
+}
+
 /* Adds a tile to the homes' sums, in a general form, where no fast path has. A ghost whose density goes by continuity
-   sums over matter only; its acceleration is not used. */
+   sums over matter, and over the walls where one moves: a piston fills the room that the water before it leaves, or the
+   ghosts of a bed beside its foot would thin out and pull. Its acceleration is not used. */
 static void force_tile_any(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role, bool fast)
 {
     sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
     const uint8_t diffusion = c.diffusion;
+    const bool meets = SPH_WITH_WALL_GHOST && walls_move(sim);
     const sph_factors *f = &sim->fac;
     c.apart = SPH_HAS_APART && sph_asks_apart(sim);
     for (uint32_t h = 0; h < homes; h++) {
         const bool matter = sph_is_matter(&sim->set[t->home_set[h]]);
-        if (matter ? fast : role != SPH_ROLE_FLUID)
+        if (matter ? fast : role != SPH_ROLE_FLUID && !(role == SPH_ROLE_GHOST && meets))
             continue;
         if (SPH_WITH_WALL_GHOST)
             c.diffusion = matter ? diffusion : (uint8_t)SPH_NO_DIFFUSION; /* density does not diffuse into walls */
