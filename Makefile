@@ -423,8 +423,10 @@ fuzz-replay:
 # ---- sanitizers: the tests under them ----
 
 # with what must hold inside (sph/checks.h); what is heavy is on in fuzzing: tests of faults throw particles about
-asan_flags := -fsanitize=address,undefined -DSPH_ASSERTS=1
-tsan_flags := -fsanitize=thread -DSPH_ASSERTS=1 -DSPH_SMALL=1
+# one text of the pair loop (SMALL) compiles in a fraction of the time; `make asan SMALL=0` is every fast path too
+SMALL ?= 1
+asan_flags = -fsanitize=address,undefined -DSPH_ASSERTS=1 -DSPH_SMALL=$(SMALL)
+tsan_flags = -fsanitize=thread -DSPH_ASSERTS=1 -DSPH_SMALL=$(SMALL)
 msan_flags := -fsanitize=memory -DSPH_ASSERTS=1 -fsanitize-memory-track-origins
 sanitized = $(MAKE) --no-print-directory $(1) BUILD=$(BUILD)/$(2) CC="$(CLANG)" WARN="-Wall -Wno-pass-failed" \
 	OPT="-O1 -g -fno-omit-frame-pointer" CFLAGS="$($(2)_flags) -fno-sanitize-recover=all" LDFLAGS="$($(2)_flags)"

@@ -105,6 +105,7 @@ if_inside() {
 }
 module_word() { add "$(nameless)" '/* viscosity */'; }
 other_example() { edit '0\.005' 's/0\.005/0.006/' examples/embed.c; }
+other_figure() { edit 'bytes \| 25,600' 's/ bytes \| 25,600/ bytes | 25,601/' README.md; }
 no_block() { edit '^```c$' 's/^```c$/```/' README.md; }
 no_row() { edit '^#endif' '$s/^#endif.*/#define sph_gates_new SPH_NAME(gates_new)\n&/' sph/sph.h; }
 tool_blind() { edit 'return fail\(o, reason\);' 's/return fail(o, reason);/return true;/' tools/output.c; }
@@ -220,6 +221,7 @@ gate quick tests_empty 'no test ran' - - "sh tests/run.sh build /bin/true"
 gate quick dumps_byte '[1-9][0-9]* failed' dump_byte "$(test_of test_dumps_1f)"
 gate quick readme_example '^[<>]' other_example "sh tests/readme.sh"
 gate quick readme_block 'no C block' no_block "sh tests/readme.sh"
+gate quick readme_table 'not what tests/results says' other_figure "sh tests/readme.sh"
 gate quick entries_row 'sph_gates_new of .* has no row' no_row "sh tests/entries.sh"
 gate quick table_targets '0 rows with a target' - \
     "printf 'n,v,u,t,ok\na,1,,1,yes\n' >build/t.csv && sh tests/table.sh build/t.csv" \

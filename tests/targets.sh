@@ -4,7 +4,6 @@
 # hash against tests/golden.csv. Installs nothing; says what is missing. Writes BUILD/targets.csv.
 #   sh tests/targets.sh [NAME...]     these machines only (default: all)
 #   sh tests/targets.sh --report [NAME...]   what the latest runs gave, without running anything
-#   sh tests/targets.sh --readme      the table of README.md, from BUILD/targets.csv
 #   FULL=1      slow machines run all cases too          STRICT=1   a machine without tools counts as a failure
 #   BUILDS="1f 2f"  these builds only                    JOBS=N     machines at once (default 2)
 #   SHARE=3     two of the six builds on each machine, the next two on the next (for CI)
@@ -68,34 +67,6 @@ one_machine() {
 
 if [ "${1:-}" = --one ]; then
     one_machine "$2"
-    exit
-fi
-
-# a line a machine: how many hashes were equal in each build, and the hash of the first case in 2-D float
-if [ "${1:-}" = --readme ]; then
-    awk -v names="$(machine_names | tr '\n' ' ')" '
-    function n_of(k) { return k in equal ? equal[k] : "-" }
-    NR > 1 {
-        m = $0
-        sub(/_[123][fd]_.*/, "", m)
-        rest = substr($0, length(m) + 2)
-        split(rest, p, ",")
-        b = substr(p[1], 1, 2)
-        if (p[1] ~ /_equal$/) {
-            equal[m b] = p[5] == "no" ? "differs" : p[2]
-            cc[m] = p[3]
-            gsub(/scenes \(|\)/, "", cc[m])
-        }
-        if (p[1] == "2f_first_case") hash[m] = p[2]
-    } END {
-        print "| target | compiler | base, 2-D float | equal hashes in 1-D float, double | 2-D | 3-D |"
-        print "|---|---|---|---|---|---|"
-        n = split(names, name, " ")
-        for (i = 1; i <= n; i++)
-            if ((m = name[i]) in cc)
-                printf "| %s | %s | `%s` | %s, %s | %s, %s | %s, %s |\n", m, cc[m], hash[m], n_of(m "1f"), n_of(m "1d"),
-                    n_of(m "2f"), n_of(m "2d"), n_of(m "3f"), n_of(m "3d")
-    }' "$BUILD/targets.csv"
     exit
 fi
 

@@ -69,18 +69,11 @@ static void released(void *ctx, const double *x, double *v, double *rho)
 static sph_status build(sph_sim *sim, const double *p)
 {
     double lo[2], hi[2], q[PARAMS];
-    uint32_t water;
-    sph_status st;
     tank(p, lo, hi);
     const double column[2] = {lo[0] + p[A], lo[1] + p[N2] * p[A]};
     for (int i = 0; i < PARAMS; i++)
         q[i] = p[i]; /* the field's context is not const */
-    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, column, NULL)) != SPH_OK)
-        return st;
-    if (p[START] == SCENE_HYDROSTATIC)
-        st = sph_apply_hydrostatic(sim, water, column[1]);
-    else if (p[START] == SCENE_RELEASED)
-        st = sph_apply_field(sim, water, released, q);
+    const sph_status st = scene_add_water(sim, p[START], lo, column, released, q);
     return st ? st : scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1));
 }
 

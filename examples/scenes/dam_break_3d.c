@@ -57,14 +57,9 @@ static sph_status build(sph_sim *sim, const double *p)
 {
     const double lo[3] = {0, 0, 0};
     double block[3], tank[3];
-    uint32_t water;
-    sph_status st;
     sizes(p, block, tank);
-    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK ||
-        (st = sph_add_box(sim, water, lo, block, NULL)) != SPH_OK ||
-        (st = sph_apply_hydrostatic(sim, water, block[2])) != SPH_OK)
-        return st;
-    return scene_add_tank(sim, p, lo, tank, spacing(p), FACES);
+    const sph_status st = scene_add_water(sim, SCENE_HYDROSTATIC, lo, block, NULL, NULL);
+    return st ? st : scene_add_tank(sim, p, lo, tank, spacing(p), FACES);
 }
 
 static double end(const double *p) { return 3 / rate(p); }

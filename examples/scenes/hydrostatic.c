@@ -32,13 +32,8 @@ static void configure(const double *p, sph_config *c)
 static sph_status build(sph_sim *sim, const double *p)
 {
     const double lo[1] = {0}, hi[1] = {p[DEPTH]};
-    uint32_t water;
-    sph_status st;
-    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, hi, NULL)) != SPH_OK)
-        return st;
-    if (p[START] == SCENE_HYDROSTATIC && (st = sph_apply_hydrostatic(sim, water, p[DEPTH])) != SPH_OK)
-        return st;
-    return scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(0));
+    const sph_status st = scene_add_water(sim, p[START], lo, hi, NULL, NULL);
+    return st ? st : scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(0));
 }
 
 static double end(const double *p) { return p[DURATION] * __builtin_sqrt(p[DEPTH] / p[GRAVITY]); }

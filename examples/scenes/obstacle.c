@@ -52,11 +52,8 @@ static sph_status build(sph_sim *sim, const double *p)
 {
     const double lo[3] = {0, 0, 0};
     const sph_wall wall = scene_wall(p);
-    uint32_t water;
     sph_status st;
-    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK ||
-        (st = sph_add_box(sim, water, water_lo, water_hi, NULL)) != SPH_OK ||
-        (st = sph_apply_hydrostatic(sim, water, water_hi[2])) != SPH_OK ||
+    if ((st = scene_add_water(sim, SCENE_HYDROSTATIC, water_lo, water_hi, NULL, NULL)) != SPH_OK ||
         (st = sph_add_wall_box(sim, &wall, box_lo, box_hi, BOX_FACES, false, NULL)) != SPH_OK)
         return st;
     return scene_add_tank(sim, p, lo, tank, spacing(p), FACES);

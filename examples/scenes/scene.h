@@ -136,6 +136,12 @@ double scene_wall_count(const double *p, const double *lo, const double *hi, dou
 sph_status scene_add_tank(sph_sim *sim, const double *p, const double *lo, const double *hi, double dx,
                           uint32_t faces);
 
+/* Water from a corner to another; its pressure at the start is 0, that of water at rest, or what `released` says of its
+   density at a place, as `start` (SCENE_UNIFORM, ...) chooses. */
+#define scene_add_water SPH_NAME(scene_add_water)
+sph_status scene_add_water(sph_sim *sim, double start, const double *lo, const double *hi, sph_field_fn released,
+                           void *ctx);
+
 /* n as a capacity, at most what the kernel takes */
 #define scene_capacity SPH_NAME(scene_capacity)
 uint32_t scene_capacity(double n);

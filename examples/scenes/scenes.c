@@ -154,6 +154,18 @@ sph_status scene_add_tank(sph_sim *sim, const double *p, const double *lo, const
     return sph_add_wall_box(sim, &wall, wlo, whi, faces, true, NULL);
 }
 
+sph_status scene_add_water(sph_sim *sim, double start, const double *lo, const double *hi, sph_field_fn released,
+                           void *ctx)
+{
+    uint32_t water;
+    sph_status st;
+    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, hi, NULL)) != SPH_OK)
+        return st;
+    if (start == SCENE_HYDROSTATIC)
+        return sph_apply_hydrostatic(sim, water, hi[SPH_DIM - 1]);
+    return start == SCENE_RELEASED ? sph_apply_field(sim, water, released, ctx) : SPH_OK;
+}
+
 static double intervals(double length, double dx)
 {
     double n = length / dx + 0.5;

@@ -36,12 +36,8 @@ static void configure(const double *p, sph_config *c)
 static sph_status build(sph_sim *sim, const double *p)
 {
     const double lo[2] = {0, 0}, top[2] = {p[WIDTH], p[DEPTH]}, hi[2] = {p[WIDTH], 1.5 * p[DEPTH]};
-    uint32_t water;
-    sph_status st;
-    if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, top, NULL)) != SPH_OK ||
-        (st = sph_apply_hydrostatic(sim, water, p[DEPTH])) != SPH_OK)
-        return st;
-    return scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1));
+    const sph_status st = scene_add_water(sim, SCENE_HYDROSTATIC, lo, top, NULL, NULL);
+    return st ? st : scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1));
 }
 
 static double end(const double *p) { return p[DURATION]; }

@@ -123,6 +123,12 @@ def box_peaks_error(run):
     return 100 * max(abs(box_peak(whole(run), k) - 1) for k in ("P1", "P2", "P3", "P4"))
 
 
+def weir_error(run):
+    t, angle = whole(run).col("time"), run.col("angle_deg")
+    late = [a for a, now in zip(angle, t) if now >= 2 / 3 * t[-1]]
+    return abs(sum(late) / len(late) - run.col("angle_exact")[-1])
+
+
 def wave_error(run):
     y, e = whole(run).col("mode_m"), run.col("mode_linear")
     return 100 * math.sqrt(sum((a - b) ** 2 for a, b in zip(y, e)) / len(y)) / max(map(abs, e))
@@ -235,6 +241,7 @@ impact_methods = {
     "default": {}, "no shifting": dict(shifting=0), "no shifting, alpha 0.02, sound 14": NO_SHIFT,
     "shifting 0.25": dict(shifting=0.25), "shifting 1": dict(shifting=1), "sound 14": dict(sound=14.142135623730951),
     "alpha 0.02": dict(alpha=0.02), "delta 0.1": dict(delta=0.1),
+    "damper 0.2": dict(damper=0.2), "no shifting, alpha 0.02, sound 14, damper 0.4": plus(NO_SHIFT, damper=0.4),
     "h 1.2": dict(h=1.2), "h 1.5": dict(h=1.5),
     "as dam_break: h 1.2, alpha 0.01, delta 0.1, sound 14": plus(NO_SHIFT, h=1.2, alpha=0.01, delta=0.1),
 }
@@ -396,6 +403,7 @@ rings = Study(
      "total, cubic": dict(kernel="cubic"),
      "total, h 1.2": dict(h=1.2), "corrected, epsilon 0.3": dict(form="corrected", repulsion="principal"),
      "corrected, epsilon 0": dict(form="corrected"),
+     "stabilised, alpha 0.5": dict(form="stabilised", kernel="cubic", alpha=0.5, repulsion="none"),
      "Gray's own: alpha 0.5, epsilon 0.3": plus(solids.CASE_OF_GRAY, alpha=0.5, repulsion="principal"),
      "Gray's, epsilon 0": plus(solids.CASE_OF_GRAY, alpha=0.5),
      "Gray's, alpha 0": plus(solids.CASE_OF_GRAY, alpha=0, repulsion="principal")},
@@ -468,9 +476,15 @@ hole = Study(
     h={"corrected": ({}, [1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0])},
     courant=by_integrator({}, 1.0), step=lambda n, h: h * 7 / n)
 
+weir = Study(
+    "weir", "jet over a plate without gravity (G8)", "weir", "angle of the jet off the exact one", "degrees",
+    "free streamlines, Dias & Tuck 1991", weir_error, "n, particles across the stream", [10, 16, 24],
+    {"default": {}, "h 1.2": dict(h=1.2), "h 2": dict(h=2), "no floor": dict(floor="no"),
+     "alpha 0.05": dict(alpha=0.05), "corrected": dict(gradient="bonet_lok")})
+
 STUDIES = [hydrostatic, still_tank, dam_break, impact, impact_top, impact_after, impact_levels, dam_break_3d, obstacle,
            obstacle_peaks, taylor_green, channel, standing_wave, elliptical_drop, pulse, pulse_amplitude, rings, plate,
-           beam, csm3, csm3_beat, hole]
+           beam, csm3, csm3_beat, hole, weir]
 QUANTITY = {
     "hydrostatic": "pressure", "still_tank": "pressure", "dam_break": "front", "impact": "pressure noise",
     "impact_peak": "pressure peak", "impact_mean": "pressure mean", "impact_levels": "levels front",
@@ -478,6 +492,7 @@ QUANTITY = {
     "channel": "velocity", "standing_wave": "surface", "elliptical_drop": "front", "pulse": "speed",
     "pulse_amplitude": "amplitude", "rings": "shape", "plate": "period", "beam": "period",
     "csm3": "amplitude", "csm3_frequency": "frequency", "hole": "stress",
+    "weir": "angle",
 }
 for study in STUDIES:
     study.quantity = QUANTITY[study.name]
