@@ -86,7 +86,7 @@ static bool loses_energy(const sph_config *c)
 {
     bool loses = SPH_IS(c->scheme, DIRECT) || SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK) ||
         sph_smooths_strain(c) || sph_stabilises(c) || sph_normalises(c) ||
-        (sph_sums_density(c) && sph_weak_scheme(c->scheme));
+        (sph_sums_density(c) && sph_weak_scheme(c->scheme)) || sph_guards_gradient(c);
     for (uint32_t k = 0; k < SPH_DIM; k++) /* images that move along the face */
         loses |= SPH_IS(c->face[k][0], MIRROR_NO_SLIP) || SPH_IS(c->face[k][1], MIRROR_NO_SLIP);
     return loses;

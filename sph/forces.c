@@ -411,6 +411,10 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
       .part = SPH_PART_FORCES)                                                                                     \
     X(f_c_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                   \
       .diffusion = SPH_HYDROSTATIC, .books = 1, .part = SPH_PART_FORCES)                                           \
+    X(f_c_hbg, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .loses = 1, .part = SPH_PART_FORCES)                               \
+    X(f_c_hbwg, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                 \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .loses = 1, .wall = 1, .part = SPH_PART_FORCES)                    \
     X(f_c_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
       .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1, .part = SPH_PART_FORCES)
 #define SPH_FAST_SHEAR_PARTS(X)                                                                                    \

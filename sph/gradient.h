@@ -88,7 +88,11 @@ SPH_INLINE void sph_corrected_pressure(const sph_choice *c, const sph_home *o, c
     }
     if (!SPH_WITH_BOOKS || !c->books || !c->loses)
         return;
-    sph_symmetric_times(h->t, p->dx, a);
+    const vreal own = sph_weak_scheme(c->scheme) ? o->press : o->press * o->rho;
+    SPH_UNROLL
+    for (uint32_t k = 0; k < SPH_NT; k++)
+        sum[k] = h->n[k] * own; /* T without the guard, as the rate of density has it */
+    sph_symmetric_times(sum, p->dx, a);
     p->gain = sph_dot(p->dv, a) * w;
 }
 

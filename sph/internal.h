@@ -353,6 +353,7 @@ SPH_INLINE bool sph_replaces(const sph_config *c) { return SPH_HAS_EDGES && c->e
 SPH_INLINE bool sph_shears(const sph_config *c) { return SPH_WITH_SHEAR && c->shear != SPH_NO_SHEAR; }
 SPH_INLINE bool sph_has_energy(const sph_config *c) { return SPH_WITH_ENERGY && c->energy; }
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
+SPH_INLINE bool sph_guards_gradient(const sph_config *c) { return SPH_IS(c->gradient, BONET_LOK) && c->gradient_guard; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
 SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }
 SPH_INLINE bool sph_repels(const sph_config *c)

@@ -39,7 +39,7 @@ typedef float sph_real;
 #endif
 
 /* 1: no solids; 2: no sponges; 3: before `rise`, with fewer books; 4: before `lag`; 5: before flows, energies */
-#define SPH_VERSION 6u
+#define SPH_VERSION 7u
 #define SPH_MAX_SETS 64u   /* particle sets: a body of fluid, one side of a wall, one corner */
 #define SPH_MAX_GROUPS 16u /* groups of wall sets that move or vanish together */
 
@@ -219,7 +219,9 @@ enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_ANTUONO, SPH_DIFFUSIO
    angular momentum and energy stay. RENORMALISED: (B_i + B_j)/2 x_ij g in continuity, pressure and artificial
    viscosity (Wickramarachchi 2009 eqs 4.8-4.20); momentum and energy stay. Both cost a sweep and SPH_DIM (SPH_DIM +
    1)/2 reals a particle; where neighbours do not span space the plain gradient is taken. Still water without viscosity
-   is stirred beside its surface (README, findings). */
+   is stirred beside its surface (README, findings) but with gradient_guard (BONET_LOK): there the force of the pressure
+   becomes the plain one where det E, E = M/rho, falls from 0.6 to 0.3, as in the outermost row; rates of density and
+   what is exact of them stay, momentum too; the energy that is not kept is on the books (`unbalanced`). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* How the density is made anew every shepard_every steps, or each time that filter_period (s) has passed (not beside

@@ -107,6 +107,7 @@ static void draw_choices(plan *p)
         c->diffusion = SPH_MOLTENI;
     if (chance(0.35))
         draw_usual(p);
+    c->gradient_guard = c->gradient == SPH_BONET_LOK && chance(0.4);
     if (c->solid == SPH_NO_SOLID && c->viscosity != SPH_MORRIS && chance(0.3)) {
         c->shear = 1 + pick(SPH_SHEARS - 1);
         c->smagorinsky = range(0, 2);
@@ -466,8 +467,8 @@ void plan_print(const plan *p)
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph,
            c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
-    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g, edge %u, damping %g, drag %g\n",
-           c->shear, c->smagorinsky, c->subgrid, c->filter, c->energy, c->gamma, c->hourglass, c->edge, c->damping,
+    printf("  guard %d, shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g, edge %u, damping %g, drag %g\n",
+           c->gradient_guard, c->shear, c->smagorinsky, c->subgrid, c->filter, c->energy, c->gamma, c->hourglass, c->edge, c->damping,
            p->drag);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
