@@ -717,6 +717,14 @@ typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho)
 #define sph_apply_field SPH_NAME(apply_field)
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx);
 
+/* Moves the particles of a set before sph_ready, each by a function of its position: lattices that follow a surface, or
+   a small push against rows that band together (Gray 2001, section 3.1). Masses, velocities, densities and ids stay: a
+   map that keeps volumes keeps the room that masses need; fields that are to be of the new places are applied after it.
+   Reference positions of solids are the new ones. All must end inside the domain. All or nothing. */
+typedef void (*sph_place_fn)(void *ctx, const double *x, double *to); /* m; `to` is x when it is called */
+#define sph_apply_positions SPH_NAME(apply_positions)
+sph_status sph_apply_positions(sph_sim *sim, uint32_t set, sph_place_fn fn, void *ctx);
+
 /* Sets the energy u (J/kg, >= 0) of a set's particles likewise (option `energy`). All or nothing. */
 #if SPH_WITH_ENERGY
 typedef void (*sph_energy_fn)(void *ctx, const double *x, double *u);
