@@ -207,6 +207,7 @@ builds_test_fail    := 1d 2f 3f
 builds_test_entry   := 1f 2f 2d 3d
 builds_test_dumps   := $(BUILDS)
 builds_test_threads := 1d 2f 3f
+builds_test_units   := 1d 2f 3f
 builds_test_faults  := 1d 2f 3f
 builds_test_api     := $(BUILDS)
 builds_test_walls   := $(BUILDS)

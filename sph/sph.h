@@ -233,8 +233,9 @@ enum { SPH_SHEPARD, SPH_MLS, SPH_FILTERS };
    same nu). NESTED: tau = 2 rho nu (S - tr S/3) of the gradient of the velocity (Wickramarachchi 2009 eqs 5.4-5.12, in
    a form that keeps momentum and energy). SMAGORINSKY: large eddies, nu + (smagorinsky dx)^2 |S| for nu, and a pressure
    2/3 subgrid rho dx^2 |S|^2 (his eqs 5.18, 5.19, 5.32, 5.33). SMAGORINSKY_WICK: nu + smagorinsky dx^2 |S|^2, as the
-   line after his 5.32 prints it. What they take is never negative but beside MIRROR_NO_SLIP. Costs a sweep and
-   SPH_DIM^2 + 1 reals a particle (SPH_USE_SHEAR). With corrected gradients exact where the velocity is linear. */
+   line after his 5.32 prints it (then the constant is a time, s). What they take is never negative but beside
+   MIRROR_NO_SLIP. Costs a sweep and SPH_DIM^2 + 1 reals a particle (SPH_USE_SHEAR). With corrected gradients exact
+   where the velocity is linear. */
 enum { SPH_NO_SHEAR, SPH_NESTED, SPH_SMAGORINSKY, SPH_SMAGORINSKY_WICK, SPH_SHEARS };
 
 /* Integrators. All are of second order in time in every field, with walls and forces that change with time and steps
