@@ -6,9 +6,9 @@
 
 #include "sweep.h"
 
-/* Whether the candidates in the tile of matter are images in a face across which gravity pulls: what stands there upside
-   down has no part in this diffusion, as walls have none, so that water at rest over such a face feels none. Gathers
-   and sums know that of a tile that was filled apart (SPH_APART_MIRRORED). */
+/* Whether the candidates in the tile of matter are images in a face across which gravity pulls: what stands there
+   upside down has no part in this diffusion, as walls have none, so that water at rest over such a face feels none.
+   Gathers and sums know that of a tile that was filled apart (SPH_APART_MIRRORED). */
 SPH_INLINE bool sph_is_upside_down(const sph_sim *sim, const sph_thread *t)
 {
     bool turned = false;
@@ -17,12 +17,13 @@ SPH_INLINE bool sph_is_upside_down(const sph_sim *sim, const sph_thread *t)
     return turned;
 }
 
-/* G of a home (kg/m^4) */
-SPH_INLINE void sph_spread_density_gradient(const sph_sim *sim, const sph_thread *t, uint32_t h, vreal *g)
+/* G of a home (kg/m^4); returns the rows of the candidates' */
+SPH_INLINE const sph_real *sph_spread_density_gradient(const sph_sim *sim, const sph_thread *t, uint32_t h, vreal *g)
 {
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_DIM; k++)
         g[k] = v_set(sim->density_gradient[k][t->home_at[h]]);
+    return sph_near_columns_of(sim, t, SPH_COLUMN_density_gradient);
 }
 
 #define sph_load_density_gradient SPH_NAME(load_density_gradient_)

@@ -2,9 +2,9 @@
 /* diffusion.h: density diffusion (Molteni & Colagrossi 2009; Fourtakas et al. 2019; Antuono et al. 2010), in matter
    only:
      drho_i += 2 delta h c0 (m_j/rho_j) (rho_j - rho_i - rho_H) (x_ji . grad W)/(r^2 + eta)
-   with eta 0.01 h^2 and rho_H the difference that gravity makes between the two places (HYDROSTATIC), or (G_i + G_j)/2 .
-   x_ji of the renormalised gradients of density (ANTUONO: density_gradient.c; their psi_ij is twice what stands before
-   grad W here), or 0. An image
+   with eta 0.01 h^2 and rho_H the difference that gravity makes between the two places (HYDROSTATIC), or x_ji .
+   (G_i + G_j)/2 of the renormalised gradients of density (ANTUONO: density_gradient.c; their psi_ij is twice what
+   stands before grad W here), or 0. An image
    has the density of its original: rho_H is that of the original's place (factors.c, sph_pair_factors). Only within one
    material. rho_j of the volume m_j/rho_j is at least rho0/2: among spray, thinner without bound, volumes would sum to
    more than the step stands (factors.c), and densities go below 0. Standard schemes have that in the candidates'

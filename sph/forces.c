@@ -234,11 +234,9 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         gradient = sph_spread_gradient(c, sim, t, h);
     }
     vreal slope[SPH_DIM];
-    if (SPH_IS(c->diffusion, ANTUONO) && !wall) {
-        o.steepness = sph_near_columns_of(sim, t, SPH_COLUMN_density_gradient);
-        sph_spread_density_gradient(sim, t, h, slope);
-        o.slope = slope;
-    }
+    o.slope = slope;
+    if (SPH_IS(c->diffusion, ANTUONO) && !wall)
+        o.steepness = sph_spread_density_gradient(sim, t, h, slope);
     sph_shear_home shear;
     if (SPH_WITH_SHEAR && c->shear) {
         o.sheared = sph_near_columns_of(sim, t, SPH_COLUMN_shear);

@@ -3,8 +3,9 @@
    tile.
 
    Array: N (Bonet & Lok) or B (renormalised), symmetric, SPH_DIM (SPH_DIM + 1)/2 reals. Cost: a sweep before the
-   forces. With gradient_guard T has less of the correction at a surface (guarded_share): there the whole one stirs water
-   at rest, row against row. Where the neighbours do not span space (sph_invert_sum, of E = M/rho) the plain gradient is taken. */
+   forces. With gradient_guard T has less of the correction at a surface (guarded_share): there the whole one stirs
+   water at rest, row against row. Where the neighbours do not span space (sph_invert_sum, of E = M/rho) the plain
+   gradient is taken. */
 #include "gradient.h"
 #include "arithmetic.h"
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* initial.c: initial fields: places, velocity and density by a function of position, density by hydrostatic pressure. Runs
-   between steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be right. */
+/* initial.c: initial fields: places, velocity and density by a function of position, density by hydrostatic pressure.
+   Runs between steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be
+   right. */
 #include "setup.h"
 #include "arithmetic.h"
 

@@ -210,8 +210,8 @@ enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH
    water stays still. ANTUONO: the mean of the two particles' renormalised gradients of density (kg/m^4) times
    r_ji is taken off, so that no linear field of density feels any, whatever made it (Antuono, Colagrossi, Marrone &
    Molteni 2010); images in faces across which gravity pulls have no part in it; SPH_DIM reals a particle
-   (SPH_USE_ANTUONO) and a sweep; not with solids. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial
-   viscosity the mean of both. */
+   (SPH_USE_ANTUONO) and a sweep; not with solids. Of sets with sound speeds of their own (sph_fluid) diffusion takes
+   the set's, artificial viscosity the mean of both. */
 enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_ANTUONO, SPH_DIFFUSIONS };
 
 /* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of

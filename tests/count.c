@@ -4,7 +4,8 @@
 
      count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
                             total: its block of a solid; default, no_books, large_eddies, shifting: the scene dam_break
-                            or dam_break_3d as it is, without books, with large eddies, with its particles shifted */
+                            or dam_break_3d as it is, without books, with large eddies, with its particles shifted,
+                            with the acoustic damper, with density diffusion after Antuono */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 
@@ -15,6 +16,15 @@ static void correct(sph_config *c)
     c->gradient = SPH_BONET_LOK;
 #else
     (void)c;
+#endif
+}
+
+static void antuono(double *p)
+{
+#ifdef SPH_WITH_ANTUONO
+    p[SCENE_OF_diffusion] = SPH_ANTUONO;
+#else
+    (void)p;
 #endif
 }
 
@@ -46,6 +56,8 @@ static tank scene_tank(const char *name, uint32_t n, const char *how)
 #ifdef SPH_WITH_DAMPER
     p[SCENE_OF_damper] = strcmp(how, "damper") == 0 ? 0.2 : 0;
 #endif
+    if (strcmp(how, "antuono") == 0)
+        antuono(p);
     if (strcmp(how, "large_eddies") == 0)
         large_eddies(p);
     s->configure(p, &c);
@@ -64,8 +76,8 @@ int main(int argc, char **argv)
     unsigned long long done = 0;
     tank t;
     if (argc != 4) {
-        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting|damper "
-                        "N STEPS\n");
+        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting|damper|"
+                        "antuono N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);

@@ -45,6 +45,7 @@ dam_break_3d|3f|default|16|1|3|0.40
 dam_break_3d_no_books|3f|no_books|16|1|3|0.55
 shifting_2d|2f|shifting|60|2|8|1.35|dam_break_2d
 damper_2d|2f|damper|60|2|8|1.35|dam_break_2d
+antuono_2d|2f|antuono|60|2|8|1.60|dam_break_2d
 shifting_3d|3f|shifting|16|1|3|1.35|dam_break_3d
 END
 }

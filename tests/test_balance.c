@@ -240,8 +240,8 @@ static void check(const scene *s)
                  p[4], p[5], p[6]);
     }
     /* forms that conserve energy are not charged with anything */
-    const bool conserves = s->scheme <= SPH_WEAK && s->face != SPH_MIRROR_NO_SLIP && !s->xsph && !s->solid && !s->guard &&
-        (s->density == SPH_CONTINUITY || s->scheme == SPH_STANDARD);
+    const bool conserves = s->scheme <= SPH_WEAK && s->face != SPH_MIRROR_NO_SLIP && !s->xsph && !s->solid &&
+        !s->guard && (s->density == SPH_CONTINUITY || s->scheme == SPH_STANDARD);
     assert_true(!conserves || (sim->now.power[POWER_UNBALANCED] >= 0 && sim->now.power[POWER_UNBALANCED] <= 0));
     assert_int_equal(free_sims(NULL), 0);
 }

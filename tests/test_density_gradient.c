@@ -10,7 +10,7 @@
 #define CELLS (SPH_DIM == 1 ? 60u : SPH_DIM == 2 ? 14u : 9u)
 #define EDGE (CELLS * DX)
 #define LAST (SPH_DIM - 1)
-/* a density is known to a rounding; the rate is that over h/(2 delta c) times the inverse of E and some 30 neighbours */
+/* a density is known to a rounding; the rate is that over h/(2 delta c), times the inverse of E, of 30 neighbours */
 #define ROUNDING (SPH_DOUBLE ? 1e-11 : 4e-3) /* of what Molteni's diffusion does */
 
 static sph_config diffusing(uint32_t way)
@@ -112,7 +112,7 @@ static void a_linear_density_stays_at_surfaces_and_beside_walls(void **state)
     }
 }
 
-/* gravity pulls across a mirror or along it: what the density does along gravity, and across it where nothing mirrors */
+/* gravity pulls across one mirror and along others; the density goes with it */
 static void water_at_rest_feels_nothing_over_a_mirror(void **state)
 {
     const slope down = {{SPH_DIM == 1 ? -0.05 : 0, SPH_DIM == 2 ? -0.05 : 0, SPH_DIM == 3 ? -0.05 : 0}};

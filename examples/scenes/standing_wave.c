@@ -146,7 +146,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
     row[0] = t;
     row[1] = height - w.depth;
     row[2] = o.mass > 0 ? 2 * w.depth * moment / o.mass : 0;
-    row[3] = w.amplitude * sph_sin(w.omega * t + (p[START] == FLAT ? 0 : SCENE_PI / 2)) * sph_exp(-2 * w.nu * w.k * w.k * t);
+    const double phase = w.omega * t + (p[START] == FLAT ? 0 : SCENE_PI / 2);
+    row[3] = w.amplitude * sph_sin(phase) * sph_exp(-2 * w.nu * w.k * w.k * t);
     row[4] = o.kinetic;
     row[5] = o.potential;
     row[6] = o.dissipated;

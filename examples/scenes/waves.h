@@ -35,8 +35,8 @@ double wave_count(const wave_water *w);
 sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w);
 
 /* Moves water of a lattice so that it follows a surface (sph_apply_positions): a particle at x, y goes to X, y (1 +
-   eta(X)/D), where the water from `low` to X over the bed is as much as it was from `low` to x: volumes and masses stay,
-   the top row lies half a (stretched) spacing below the surface. All in m. */
+   eta(X)/D), where the water from `low` to X over the bed is as much as it was from `low` to x: volumes and masses
+   stay, the top row lies half a (stretched) spacing below the surface. All in m. */
 typedef struct wave_surface {
     double low, depth, step; /* step: of the integration, a spacing */
     double (*eta)(const void *of, double x);

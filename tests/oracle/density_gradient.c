@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* density_gradient.c: the renormalised gradient of density (Antuono, Colagrossi, Marrone & Molteni 2010):
      G_i = E_i^-1 sum V_j (rho_j - rho_i) grad W,  E_i = sum V_j (x_j - x_i) (x) grad W
-   over bodies of one material, V_j = m_j/rho_j with rho_j not below rho0/2; 0 where E is singular (gradient.c). Not over
-   images in a face across which gravity pulls: there the water stands upside down. */
+   over bodies of one material, V_j = m_j/rho_j with rho_j not below rho0/2; 0 where E is singular (gradient.c). Not
+   over images in a face across which gravity pulls: there the water stands upside down. */
 #include "oracle.h"
 
 bool o_diffuses_into(const o_scene *s, const o_particle *i, const o_particle *j)

@@ -467,8 +467,9 @@ void plan_print(const plan *p)
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph,
            c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
-    printf("  guard %d, shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g, edge %u, damping %g, drag %g\n",
-           c->gradient_guard, c->shear, c->smagorinsky, c->subgrid, c->filter, c->energy, c->gamma, c->hourglass, c->edge, c->damping,
+    printf("  guard %d\n", c->gradient_guard);
+    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g, edge %u, damping %g, drag %g\n",
+           c->shear, c->smagorinsky, c->subgrid, c->filter, c->energy, c->gamma, c->hourglass, c->edge, c->damping,
            p->drag);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
