@@ -233,7 +233,7 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         o.corrected = sph_near_columns_of(sim, t, SPH_COLUMN_gradient);
         gradient = sph_spread_gradient(c, sim, t, h);
     }
-    vreal slope[SPH_DIM];
+    vreal slope[SPH_DIM] = {v_set(0)};
     o.slope = slope;
     if (SPH_IS(c->diffusion, ANTUONO) && !wall)
         o.steepness = sph_spread_density_gradient(sim, t, h, slope);
