@@ -9,7 +9,10 @@
    images in a face across which gravity pulls are left out of both sums; other images count. Where the neighbours do
    not span space (sph_invert_sum) G is 0.
 
-   Array: G, SPH_DIM reals. Cost: a sweep before the forces, SPH_NT + SPH_DIM sums. */
+   Where rates and forces are summed apart, G is made for rates; what the books say of diffusion, beside the forces of
+   the same step, takes it as it is.
+
+   Array: G, SPH_DIM reals. Cost: a sweep before the rates, SPH_NT + SPH_DIM sums. */
 #include "density_gradient.h"
 #include "pair.h"
 #include "arithmetic.h"
@@ -76,7 +79,9 @@ static void density_gradient_tile(const sph_sim *sim, sph_thread *t, uint32_t ho
 
 static void density_gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
-    sph_real e[SPH_DIM][SPH_DIM], inv[SPH_DIM][SPH_DIM];
+    sph_real e[SPH_DIM][SPH_DIM], inv[SPH_DIM][SPH_DIM], d[SPH_DIM];
+    for (int k = 0; k < SPH_DIM; k++)
+        d[k] = v_fold(t->sum[SUM_D + k][h]) * sim->fac.slope;
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = k; l < SPH_DIM; l++)
             e[k][l] = e[l][k] = -v_fold(t->sum[SUM_E + sph_sym[k][l]][h]) * sim->fac.slope;
@@ -84,7 +89,7 @@ static void density_gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
     for (int k = 0; k < SPH_DIM; k++) {
         sph_real sum = 0;
         for (int l = 0; spans && l < SPH_DIM; l++)
-            sum += inv[k][l] * (v_fold(t->sum[SUM_D + l][h]) * sim->fac.slope);
+            sum += inv[k][l] * d[l];
         sim->density_gradient[k][t->home_at[h]] = -sum;
     }
 }
@@ -97,8 +102,7 @@ static void density_gradient_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 }
 static bool wants_density_gradient(const sph_sim *sim)
 {
-    const bool asks = sph_sums_rates(sim) || sph_keeps_books(&sim->cfg);
-    return sph_takes_density_gradient(&sim->cfg) && asks;
+    return sph_takes_density_gradient(&sim->cfg) && sph_sums_rates(sim);
 }
 const sph_pass sph_pass_density_gradient = {"density_gradient", sph_sweep_chunks, density_gradient_chunk, NULL,
                                             wants_density_gradient};
