@@ -32,17 +32,18 @@ static bool is_free(const sph_sim *sim, uint8_t set)
     return set != SPH_DEAD && sph_is_matter(&sim->set[set]) && !sph_flow_of(sim, &sim->set[set]);
 }
 
-/* what the factor before the sort took */
+/* what the factor before the sort took: of who was free in it and still is (flow.c has come between) */
 static void damping_chunk(sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
     const sph_span span = sph_chunk_span(sim, chunk);
-    const sph_buffer *b = &sim->buf[sim->dst];
+    const sph_buffer *b = &sim->buf[sim->dst], *o = &sim->buf[sim->src];
     const double factor = (double)sph_slowed_by(sim);
     double sum = 0;
     for (uint32_t i = span.first; i < span.last; i++) {
         const uint8_t set = b->set[0][i];
-        if (is_free(sim, set))
-            sum += free_energy(sim, &sim->buf[sim->src], b->id[0][i], &sim->set[set]);
+        const uint32_t p = b->id[0][i];
+        if (is_free(sim, set) && is_free(sim, o->set[0][p]))
+            sum += free_energy(sim, o, p, &sim->set[set]);
     }
     sim->slowing[chunk] = sum * (1 - factor * factor);
     t->work += span.last - span.first;

@@ -247,8 +247,8 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
 #define MODULE(knob, pass) ((knob) ? &(pass) : NULL)
 
 #define SORT                                                                                                       \
-    &sph_pass_count, &sph_pass_scatter, &pass_carry, MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping),              \
-        MODULE(SPH_WITH_FLOW, sph_pass_flow)
+    &sph_pass_count, &sph_pass_scatter, &pass_carry, MODULE(SPH_WITH_FLOW, sph_pass_flow),                         \
+        MODULE(SPH_WITH_DAMPING_RATE, sph_pass_damping)
 /* what a step begins with */
 #define BEGIN MODULE(SPH_WITH_FLOW, sph_pass_births), MODULE(SPH_WITH_FLOW, sph_pass_newcomers), &pass_begin
 #define QUIET MODULE(SPH_WITH_DAMPER, sph_pass_damper)

@@ -132,17 +132,29 @@ static bool joins_wall(filling *f, const sph_set *set, const sph_image *im)
     return same;
 }
 
+/* how far home h went in the last half of a step, in whose middle it is seen (tiles.c) */
+static double way_since(const sph_sim *sim, const sph_thread *t, uint32_t h, uint32_t k)
+{
+    const sph_buffer *const b = &sim->buf[sim->dst];
+    const sph_real *const beside = sph_drift(sim, b, k);
+    const uint32_t i = t->home_at[h];
+    return 0.5 * sim->dt * ((double)b->vel[k][i] + (beside ? (double)beside[i] : 0));
+}
+
 bool sph_is_acted_on(const sph_sim *sim, const sph_thread *t, uint32_t h)
 {
     const sph_set *const s = t->wall;
     const double q = sim->grid.quantum;
+    const bool middle = sph_in_middle(sim);
     double d[SPH_DIM], frame[SPH_DIM][SPH_DIM], x[SPH_DIM] = {0};
     if (!s)
         return true;
     sph_frame_of(s, frame);
     for (uint32_t k = 0; k < SPH_DIM; k++) { /* from the face, as the image shows it, turned back */
-        const double seen = ((double)sim->buf[sim->dst].pos[k][t->home_at[h]] - (double)t->wall_seen.shift[k]) * q;
+        const double at = ((double)sim->buf[sim->dst].pos[k][t->home_at[h]] - (double)t->wall_seen.shift[k]) * q;
+        const double seen = middle ? at - way_since(sim, t, h, k) : at;
         d[k] = (double)t->wall_seen.sign[k] * seen - s->origin[k] - (double)sph_wall_moved(sim, s, k) * q;
+        d[k] += middle ? 0.5 * sim->dt * sph_wall_velocity(sim, s, k) : 0;
     }
     for (uint32_t l = 0; l < SPH_DIM; l++)
         for (uint32_t k = 0; k < SPH_DIM; k++)

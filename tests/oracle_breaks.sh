@@ -71,6 +71,13 @@ break_it square_root_of_7 'courant limit' sph/timestep.c 's/TAIT_GRAY) ? 7 : 1/T
 break_it thin_neighbour 'density rate' sph/tiles.c 's/LEAST_DENSITY ((sph_real)0.5)/LEAST_DENSITY ((sph_real)0.4)/'
 break_it shifting_deep filling sph/shifting.c 's/DEEP_SPREAD ((sph_real)0.98)/DEEP_SPREAD ((sph_real)0.95)/'
 break_it shifting_book 'book of shifting' sph/shifting.c 's/ energy(sim, s, was) - / 0.99 * energy(sim, s, was) - /'
+break_it birth_half_off 'place after steps' sph/flow.c \
+    's/+= f->end - f->face;/+= f->end - f->face - (sph_pos)(0.5 * sim->cfg.spacing \/ sim->grid.quantum);/'
+break_it flow_density_free 'density after steps' sph/flow.c '/b->rho\[0\]\[j\] = o->rho\[0\]\[p\];/d'
+break_it ids_from_0 'particles that are there' sph/flow.c 's/next_id = id + 1;/next_id = 0;/'
+break_it damps_the_held 'book of damping' sph/damping.c 's/ \&\& is_free(sim, o->set\[0\]\[p\])//'
+break_it off_the_mitre "place of a bed's" sph/polyline.c 's/share = 1 \/ (1 + a/share = 1 \/ (1.1 + a/'
+break_it bed_corner_open 'face of a bed' sph/polyline.c 's/t1 > 0 ? t1 \* s->thick : 0/0/'
 
 [ $n -gt 0 ] || { echo "oracle_breaks.sh: no break is called '$chosen'" >&2; exit 2; }
 mv "$out.tmp" "$out"

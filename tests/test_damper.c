@@ -265,32 +265,37 @@ static void a_step_ends_with_u_added(void **state)
 
 /* ---- refusals, the machine that runs steps ---- */
 
-static void refused(const sph_config *c, const char *what)
+static void refused(const sph_config *c, const char *what, double value)
 {
     sph_report r;
     assert_int_equal(sph_config_check(c, &r), SPH_BAD_CONFIG);
     assert_string_equal(r.what, what);
+    assert_true(r.value == value);
 }
 static void what_makes_no_sense_is_refused(void **state)
 {
     (void)state;
     sph_config c = box(0.2, 0);
     c.integrator = SPH_RUNGE_KUTTA;
-    refused(&c, "damper");
+    refused(&c, "damper", 0.2);
     c = box(0.2, 0);
     c.density = SPH_SUMMATION;
-    refused(&c, "damper");
+    refused(&c, "damper", 0.2);
     c = box(0.2, 0);
     c.solid = SPH_UPDATED;
-    refused(&c, "damper");
+    refused(&c, "damper", 0.2);
     c = box(-1, 0);
-    refused(&c, "damper");
+    refused(&c, "damper", -1);
     c = box(0, 0);
     c.damping_rate = -1;
-    refused(&c, "damping_rate");
+    refused(&c, "damping_rate", -1);
     c = box(0, 0);
     c.xsph_velocity = true;
-    refused(&c, "xsph_velocity");
+    refused(&c, "xsph_velocity", 1);
+    c.xsph = 0.3;
+    c.xsph_strain = true;
+    c.solid = SPH_UPDATED;
+    refused(&c, "xsph_velocity", 1);
 }
 
 static void slices_and_reruns_change_no_bit(void **state)

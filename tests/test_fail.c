@@ -114,6 +114,25 @@ static void the_named_particle_does_not_depend_on_threads(void **state)
     }
 }
 
+/* what is left of a rate of density that grows beyond bounds while nothing else does */
+static void a_rate_of_density_beyond_bounds_is_refused(void **state)
+{
+    (void)state;
+    sph_config c = open_config(N * DX, DX);
+    c.viscosity = SPH_INVISCID;
+    for (uint32_t fast = 0; fast < 2; fast++) {
+        sph_sim *sim = new_sim(&c);
+        uint32_t set;
+        must(sim, sph_add_fluid(sim, NULL, &set));
+        for (uint32_t k = 0; k < 2; k++) {
+            double x[SPH_DIM] = {k * DX}, v[SPH_DIM] = {0};
+            v[0] = (fast ? 4e14 : 1e12) * (k ? -1 : 1);
+            must(sim, sph_add_particle(sim, set, x, v, 1000, NULL));
+        }
+        assert_int_equal(sph_ready(sim), fast ? SPH_NOT_FINITE : SPH_OK);
+    }
+}
+
 static sph_sim *leaver(uint32_t policy, double v0)
 {
     sph_config c = open_config(N * DX, DX);
@@ -467,6 +486,7 @@ int main(void)
         subject(a_field_with_nan_is_refused_and_changes_nothing),
         subject(a_nan_in_the_middle_of_a_run_is_caught_and_the_run_goes_on),
         subject(the_named_particle_does_not_depend_on_threads),
+        subject(a_rate_of_density_beyond_bounds_is_refused),
         subject(leaving_the_domain_fails_or_removes),
         subject(who_leaves_is_named_with_its_face),
         subject(the_first_forces_in_slices_begin_the_step),

@@ -201,6 +201,30 @@ static void what_flows_carry_keeps_velocity_and_density(void **state)
     }
 }
 
+/* along the second axis too: what flows hold has the speed along their axis and nothing across it */
+static void what_comes_in_goes_along_its_axis_only(void **state)
+{
+    for (uint32_t axis = 0; axis < SPH_DIM; axis++)
+        for (uint32_t up = 0; up < 2; up++) {
+            sph_config c = channel(0.3, 5000);
+            sph_flow f = {.face = up ? SPH_HIGH(axis) : SPH_LOW(axis), .speed = 1.5};
+            uint32_t water, set;
+            sph_particle p;
+            for (uint32_t k = 0; k < SPH_DIM; k++)
+                f.hi[k] = k == axis ? LAYERS * DX : 3 * DX;
+            sph_sim *sim = new_sim(&c);
+            must(sim, sph_add_fluid(sim, NULL, &water));
+            must(sim, sph_add_inflow(sim, water, &f, &set));
+            assert_true(sph_count(sim) > 0);
+            for (uint32_t i = 0; i < sph_count(sim); i++) {
+                assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+                for (uint32_t k = 0; k < SPH_DIM; k++)
+                    assert_true(p.v[k] == (k != axis ? 0 : up ? 1.5 : -1.5));
+            }
+            free_sims(state);
+        }
+}
+
 static void a_full_capacity_is_a_status_that_says_the_need_and_leaves_the_state(void **state)
 {
     const uint32_t first = (REACH - LAYERS) * ROWS;
@@ -321,6 +345,50 @@ static void energy_is_accounted_for(void **state)
     }
 }
 
+/* damping by a rate takes nothing of what a flow holds, also in the step in which it takes water over, and then from
+   whom an inflow has let go; its book is what they lose. Nobody feels a force: the boxes are far apart */
+static void damping_books_what_it_takes_of_who_is_free(void **state)
+{
+    for (uint32_t by = 0; by < SPH_INTEGRATORS; by++) {
+        const double hi = REACH * DX, m = 1000 * pow(DX, SPH_DIM);
+        double lost = 0, lo[SPH_DIM] = {hi - LAYERS * DX}, to[SPH_DIM] = {hi}, v[SPH_DIM] = {1};
+        uint32_t water, set;
+        sph_flow f = {.face = SPH_HIGH(0), .speed = 1};
+        sph_config c = channel(0.3, 20000);
+        sph_particle p;
+        sph_totals t;
+        c.integrator = by;
+        c.damping_rate = 0.5 / c.dt;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_fluid(sim, NULL, &water));
+        for (int k = 1; k < SPH_DIM; k++)
+            to[k] = f.hi[k] = ACROSS * DX;
+        f.hi[0] = LAYERS * DX;
+        must(sim, sph_add_inflow(sim, water, &f, &set));
+        must(sim, sph_add_box(sim, water, lo, to, v));
+        f = (sph_flow){.face = SPH_LOW(0)};
+        memcpy(f.lo, lo, sizeof lo);
+        memcpy(f.hi, to, sizeof to);
+        must(sim, sph_add_outflow(sim, water, &f, &set));
+        must(sim, sph_ready(sim));
+        must(sim, sph_step(sim)); /* all of the water is the outflow's now */
+        sph_get_totals(sim, &t);
+        close_to(t.slowed, 0, 0);
+        must(sim, sph_step(sim));
+        must(sim, sph_step(sim)); /* a layer of the inflow has become water */
+        sph_get_totals(sim, &t);
+        assert_true(t.added_mass > 0);
+        for (uint32_t i = 0; i < sph_count(sim); i++) {
+            assert_int_equal(sph_get(sim, i, &p), SPH_OK);
+            assert_true(p.v[0] == 1 || p.x[0] > LAYERS * DX);
+            lost += p.mass * (1 - p.v[0] * p.v[0]) / 2;
+        }
+        assert_true(lost > 0.1 * m * ROWS);
+        close_to(t.slowed, lost, (SPH_DOUBLE ? 1e-12 : 1e-5) * lost);
+        free_sims(state);
+    }
+}
+
 static void what_is_not_allowed_is_refused(void **state)
 {
     uint32_t water, set;
@@ -373,9 +441,11 @@ int main(void)
         subject(a_uniform_stream_keeps_its_lattice_to_the_last_bit),
         subject(books_of_mass_and_ids_are_exact_over_many_particles),
         subject(what_flows_carry_keeps_velocity_and_density),
+        subject(what_comes_in_goes_along_its_axis_only),
         subject(a_full_capacity_is_a_status_that_says_the_need_and_leaves_the_state),
         subject(restarts_slices_and_threads_change_nothing),
         subject(energy_is_accounted_for),
+        subject(damping_books_what_it_takes_of_who_is_free),
         subject(what_is_not_allowed_is_refused),
     };
     return run_subjects("flow", tests);

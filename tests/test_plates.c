@@ -176,6 +176,47 @@ static void what_a_moving_plate_does_is_in_the_work(void **state)
     }
 }
 
+/* Rates of the middle of a step are of who is in front of the plate there: with the same step, one goes through the
+   plane of the face before the middle and one behind it. */
+static void in_the_middle_of_a_step_the_place_of_the_middle_counts(void **state)
+{
+    static const uint32_t first[] = {SPH_KICK_DRIFT_KICK, SPH_LEAP_FROG};
+    static const double from[] = {-0.1, -0.3}; /* spacings; by 0.4 */
+    for (uint32_t by = 0; by < 2; by++)
+        for (uint32_t late = 0; late < 2; late++)
+            for (uint32_t moves = 0; moves < 2; moves++) { /* or the plate does, the other way */
+                static const sph_steady back = {.v = {-1}};
+                double x[SPH_DIM], lo[SPH_DIM], hi[SPH_DIM], v[SPH_DIM] = {moves ? 0 : 1};
+                uint32_t set;
+                sph_config c = config();
+                sph_wall w = sph_wall_default();
+                c.integrator = first[by];
+                c.cfl = 10;
+                c.dt = 0.4 * DX;
+                sph_sim *sim = new_sim(&c);
+                w.kind = SPH_WALL_GHOST;
+                w.side = SPH_FRONT;
+                w.layers = LAYERS;
+                w.motion = moves ? sph_motion_steady : NULL;
+                w.motion_ctx = (void *)(uintptr_t)&back;
+                for (int k = 0; k < SPH_DIM; k++) {
+                    lo[k] = k ? -LAYERS * DX : -1.2 * LAYERS * DX;
+                    hi[k] = k ? LAYERS * DX : 0;
+                    x[k] = k ? 0.3 * DX : from[late] * DX;
+                }
+                must(sim, sph_add_fluid(sim, NULL, &set));
+                must(sim, sph_add_particle(sim, set, x, v, 1000, NULL));
+                must(sim, sph_add_wall_box(sim, &w, lo, hi, SPH_HIGH(0), false, NULL));
+                must(sim, sph_ready(sim));
+                must(sim, sph_step(sim));
+                if (late)
+                    close_to(by_id(sim, 0).rho, 1000, 0);
+                else
+                    assert_true(by_id(sim, 0).rho < 990);
+                free_sims(state);
+            }
+}
+
 static void what_is_not_allowed_is_refused(void **state)
 {
     (void)state;
@@ -206,6 +247,7 @@ int main(void)
         subject(everybody_feels_a_plate_exactly_once),
 #endif
         subject(what_a_moving_plate_does_is_in_the_work),
+        subject(in_the_middle_of_a_step_the_place_of_the_middle_counts),
         subject(what_is_not_allowed_is_refused),
     };
     return run_subjects("plates", tests);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* test_units.c: no equation has a number with a hidden unit. Each golden case is built a second time in other units of
-   length, time and density, powers of two, so that nothing is rounded; after some steps every particle, the step and the
-   totals are those of the first to the last bit, times their units. What a scene gives in units is scaled on its way in
-   here, so that the cases need not know. */
+   length, time and density, powers of two, so that nothing is rounded; after some steps every particle, the time and
+   the totals are those of the first to the last bit, times their units. What a scene gives in units is scaled on its
+   way in here, so that the cases need not know. */
 #include "testing.h"
 
 #include "sph/options.h"

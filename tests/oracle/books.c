@@ -47,11 +47,14 @@ static void rise_of(const o_scene *s, const o_particle *p, o_sum *o)
 {
     const o_set *set = &s->set[p->set];
     const double m = set->mass, per = -o_diffused_per_rate(s, p), whole = o_phi(p) * (1 - pow(p->root, SPH_DIM));
+    const bool carried = o_is_carried(s, p); /* only the potential energy changes */
     for (int k = 0; k < SPH_DIM; k++) {
         const double g = s->cfg.gravity[k], drift = o_drifts(s) ? p->drift[k].v : 0;
         o_add(o, m * p->a[k].v * p->v[k], m * p->a[k].s * fabs(p->v[k]));
         o_add(o, -m * g * (p->v[k] + drift), m * fabs(g) * (fabs(p->v[k]) + fabs(drift)));
     }
+    if (carried)
+        return;
     o_add(o, m * p->warmed.v, m * p->warmed.s);
     const o_sum rate = s->cfg.density == SPH_SUMMATION ? p->moved_rate : p->rate;
     o_add(o, m * per * rate.v, m * fabs(per) * rate.s);

@@ -114,7 +114,7 @@ static void compare_forces(const o_scene *s)
 static void compare_momentum(const o_scene *s)
 {
     const sph_config *c = &s->cfg;
-    bool alone = c->scheme != SPH_DIRECT && !o_normalises(s) && c->edge == SPH_NO_EDGE; /* layers push */
+    bool alone = c->scheme != SPH_DIRECT && !o_normalises(s) && !c->max_flows && c->edge == SPH_NO_EDGE;
     o_sum force[3] = {{0, 0}}, turn[3] = {{0, 0}};
     for (int k = 0; k < SPH_DIM; k++)
         alone &= c->face[k][0] == SPH_OPEN && c->face[k][1] == SPH_OPEN;
@@ -416,11 +416,15 @@ static void compare_the_gone(const sph_sim *sim, const o_scene *s)
     check("particles that left", SPH_NO_PARTICLE, 0, info.left, (o_sum){s->left, 0}, 0);
     check("particles in walls", SPH_NO_PARTICLE, 0, info.crossed, (o_sum){s->crossed, 0}, 0);
     check("particles put back", SPH_NO_PARTICLE, 0, info.put_back, (o_sum){s->put_back, 0}, 0);
+    const double one = (double)s->n * s->cfg.rho0 * pow(s->cfg.spacing, SPH_DIM);
+    check("removed mass", SPH_NO_PARTICLE, 0, t.removed_mass, s->removed_mass, one);
+    check("added mass", SPH_NO_PARTICLE, 0, t.added_mass, s->added_mass, 0);
     if (!s->cfg.books || missed)
         return;
+    check("fed", SPH_NO_PARTICLE, 0, t.fed, near(s->fed.v, heat_of(s) + s->fed.s, 0), 0);
     const double heat = heat_of(s) + s->carried_off.s + s->put_back_loss.s;
     check("put back's book", SPH_NO_PARTICLE, 0, t.put_back_loss, near(s->put_back_loss.v, heat, 0), 0);
-    if (s->left == 0 || !(rk || s->cfg.xsph > 0))
+    if (s->left == s->let_out || !(rk || s->cfg.xsph > 0))
         check("carried off", SPH_NO_PARTICLE, 0, t.carried_off, near(s->carried_off.v, heat, 0), 0);
 }
 
@@ -433,6 +437,7 @@ static void compare_trajectories(const sph_sim *sim, const o_scene *s)
         const o_set *set = &s->set[p->set];
         const seen *k = &kernel[p->id];
         const bool body = o_is_body(s, p);
+        check("set after steps", p->id, 0, k->set, (o_sum){p->set, 0}, 0);
         for (uint32_t c = 0; c < SPH_DIM; c++) {
             check("place after steps", p->id, c, k->x[c], near(p->x[c], s->cfg.spacing, spread.x), 0);
             if (body)
@@ -462,6 +467,9 @@ static void compare_trajectories(const sph_sim *sim, const o_scene *s)
     if (s->cfg.xsph_velocity)
         check("book of evening", SPH_NO_PARTICLE, 0, t.evened,
               near(s->evened.v, s->evened.s + heat_of(s), spread.evened), 0);
+    if (s->cfg.books)
+        check("work of walls and flows", SPH_NO_PARTICLE, 0, t.wall_work,
+              near(s->wall_work.v, s->wall_work.s + heat_of(s), spread.worked), 0);
     if (s->cfg.shifting > 0)
         check("book of shifting", SPH_NO_PARTICLE, 0, t.shifted,
               near(s->shifted.v, s->shifted.s + heat_of(s), spread.shifted), 0);
@@ -484,6 +492,8 @@ static void compare_ends(const sph_sim *sim, const o_scene *start, o_scene *s, u
 {
     const uint32_t so_far = founds;
     spread = (o_spread){0};
+    if (!SPH_DOUBLE && s->cfg.books && s->wall_work.s > 1e30)
+        s->undecided = "powers beyond what a float holds";
     compare_trajectories(sim, s);
     if (founds == so_far)
         return;
@@ -495,25 +505,119 @@ static void compare_ends(const sph_sim *sim, const o_scene *start, o_scene *s, u
         s->undecided = "rounding errors that grow without bound";
 }
 
+static double way_between(const double *a, const double *b)
+{
+    double sum = 0;
+    for (int k = 0; k < SPH_DIM; k++)
+        sum += pow(a[k] - b[k], 2);
+    return sum;
+}
+
+/* Who was born in a step has one of its new ids, nobody says which: each of the oracle's takes that of the kernel's
+   nearest, and gives its own to the one that had it. */
+static void match_newcomers(const sph_sim *sim, o_scene *s)
+{
+    look_results(sim, kernel, 4096);
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *a = &s->own[i], *best = a;
+        for (uint32_t j = i + 1; a->born && j < s->n; j++) {
+            o_particle *b = &s->own[j];
+            if (b->born && way_between(kernel[b->id].x, a->x) < way_between(kernel[best->id].x, a->x))
+                best = b;
+        }
+        const uint32_t id = a->id;
+        a->id = best->id;
+        best->id = id;
+    }
+}
+
+/* a step of a spacing's share where flows go, at the limits at most; else small */
+static double step_of(const plan *p, const o_scene *s)
+{
+    const double most = 10 * small_step(s);
+    return p->flows ? o_min(most, p->way * p->cfg.spacing / p->flow[0].is.speed) : most / 10;
+}
+
 static sph_status run_steps(sph_sim *sim, const plan *p, o_scene *s)
 {
     static o_scene start;
     sph_status st = SPH_OK;
     look_scene(sim, p, s);
     o_forces(s);
-    const double dt = small_step(s);
+    const double dt = step_of(p, s);
+    bool goes = true;
     s->cfg.dt = dt;
     looked_at = sim;
     o_keep(&start, s);
     st = sph_reconfigure(sim, &s->cfg);
     o_begin_steps(s, s->n);
-    for (uint32_t k = 1; !st && k <= p->steps && !s->undecided; k++) {
+    for (uint32_t k = 1; !st && goes && k <= p->steps && !s->undecided; k++) {
         st = sph_step(sim);
-        o_step(s, k, dt, flaws_of);
+        goes = o_step(s, k, dt, flaws_of);
+        if (p->flows && goes && !st)
+            match_newcomers(sim, s);
     }
+    if (!s->undecided && goes == (st == SPH_TOO_MANY_PARTICLES))
+        check("room", SPH_NO_PARTICLE, 0, st, (o_sum){goes ? SPH_OK : SPH_TOO_MANY_PARTICLES, 0}, 0);
+    if (!goes) {
+        check("particles needed", SPH_NO_PARTICLE, 0, sph_last(sim)->value, exact(s->needed), 0);
+        return SPH_OK;
+    }
+    if (st == SPH_TOO_MANY_PARTICLES)
+        return SPH_OK;
     if (!st && !s->undecided)
         compare_ends(sim, &start, s, p->steps, dt);
     return st;
+}
+
+/* ---- walls along polylines ---- */
+
+/* the nearest of those that have no particle yet */
+static o_bed_particle *place_of(o_bed_particle *bed, uint32_t n, const double *x)
+{
+    o_bed_particle *best = NULL;
+    double near = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const double d = hypot(bed[i].x[0] - x[0], bed[i].x[1] - x[1]);
+        if (!bed[i].found && (!best || d < near)) {
+            near = d;
+            best = &bed[i];
+        }
+    }
+    return best;
+}
+
+/* The particles of the last sets, which are the bed's: each has a place of its own, and its set is as that asks for. */
+static void compare_bed(o_scene *s, const plan *p)
+{
+    static o_bed_particle bed[4096];
+    const double dx = s->cfg.spacing;
+    const uint32_t points = p->bed.points, layers = p->bed.wall.layers;
+    const uint32_t deep = layers ? layers : (uint32_t)ceil(s->support / dx * (1 - 1e-12));
+    uint32_t there = 0;
+    if (points == 0)
+        return;
+    const uint32_t n = o_lay_bed(s, p->bed.p, points, p->bed.wall.kind >= SPH_WALL_GHOST ? deep : 0, deep * dx, bed);
+    for (uint32_t i = 0; i < s->n; i++) {
+        const o_particle *w = &s->own[i];
+        const o_set *set = &s->set[w->set];
+        if (w->set + 2 * points - 3 < s->sets)
+            continue;
+        o_bed_particle *o = place_of(bed, n, w->x);
+        there++;
+        check("mass of a bed", w->id, 0, set->mass, exact(s->cfg.rho0 * pow(dx, SPH_DIM)), 0);
+        check("kind of a bed", w->id, 0, set->kind, exact(p->bed.wall.kind), 0);
+        for (uint32_t k = 0; o && k < 2; k++) {
+            check("place of a bed's", w->id, k, w->x[k], (o_sum){o->x[k], 1e-6 * dx / TOLERANCE}, 0);
+            check("normal of a bed", w->id, k, set->normal[k], (o_sum){o->normal[k], 1}, 0);
+            check("face of a bed", w->id, k, set->origin[k], (o_sum){o->origin[k], 100 * dx + fabs(o->origin[k])}, 0);
+        }
+        check("face of a bed", w->id, 2, o ? set->half[0] : 0, (o_sum){o ? o->half : 0, dx}, 0);
+        check("face of a bed", w->id, 3, set->thick, exact(o && o->region ? deep * dx : 0), 0);
+        if (o)
+            o->found = true;
+    }
+    check("particles of a bed", SPH_NO_PARTICLE, 0, there, exact(n), 0);
 }
 
 /* ---- a plan ---- */
@@ -529,10 +633,12 @@ static verdict compare(const plan *p, const char **why)
         return PLAN_REFUSED;
     }
     look_scene(sim, p, &scene);
+    compare_bed(&scene, p);
     if (sph_ready(sim) != SPH_OK) {
         *why = sph_status_text(sph_last(sim)->status);
         return PLAN_REFUSED;
     }
+    o_straighten(&scene);
     o_refresh(&scene);
     o_yield(&scene);
     if (scene.cfg.density == SPH_SUMMATION)

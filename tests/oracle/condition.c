@@ -76,16 +76,18 @@ o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps,
         disturb(&s);
         o_forces(&s);
         o_begin_steps(&s, s.n);
-        for (uint32_t k = 1; k <= steps; k++)
-            o_step(&s, k, dt, flaws_of);
-        if (s.n != end->n) { /* even who is still there */
+        bool goes = true;
+        for (uint32_t k = 1; goes && k <= steps; k++)
+            goes = o_step(&s, k, dt, flaws_of);
+        if (!goes || s.n != end->n) { /* even who is still there */
             const double any = (double)INFINITY;
-            return (o_spread){any, any, any, any, any, any, any, any, any, any};
+            return (o_spread){any, any, any, any, any, any, any, any, any, any, any};
         }
         widen(&o.shifted, s.shifted.v, end->shifted.v);
         widen(&o.quieted, s.quieted.v, end->quieted.v);
         widen(&o.slowed, s.slowed.v, end->slowed.v);
         widen(&o.evened, s.evened.v, end->evened.v);
+        widen(&o.worked, s.wall_work.v, end->wall_work.v);
         for (uint32_t i = 0; i < s.n; i++) {
             const o_particle *p = &s.own[i], *q = &end->own[i];
             widen(&o.d, p->d, q->d);

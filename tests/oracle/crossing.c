@@ -78,6 +78,7 @@ void o_cross(o_scene *s)
         if (s->cfg.on_cross == SPH_REMOVE) {
             p->gone = true;
             s->left++;
+            o_plus(&s->removed_mass, s->set[p->set].mass);
             o_plus(&s->carried_off, held);
             continue;
         }

@@ -13,7 +13,8 @@
 void o_quiet(const o_scene *s, o_particle *i, double rate)
 {
     const o_set *set = &s->set[i->set];
-    i->quiet = o_is_body(s, i) ? s->cfg.damper * s->cfg.smoothing_length * set->c0 * set->rho0 * rate : 0;
+    const bool acts = o_is_body(s, i) && !o_is_carried(s, i);
+    i->quiet = acts ? s->cfg.damper * s->cfg.smoothing_length * set->c0 * set->rho0 * rate : 0;
 }
 
 void o_book_quiet(o_scene *s, const o_particle *i, double middle, double dt)
@@ -21,7 +22,7 @@ void o_book_quiet(o_scene *s, const o_particle *i, double middle, double dt)
     const o_set *set = &s->set[i->set];
     const double p = o_pressure(set->eos, set->rho0, set->c0, i->d);
     double q = s->cfg.damper * s->cfg.smoothing_length * set->c0 * set->rho0 * middle;
-    if (!o_is_body(s, i))
+    if (!o_is_body(s, i) || o_is_carried(s, i))
         return;
     if (s->cfg.pressure_floor)
         q = o_max(q, -o_max(p, 0));
@@ -38,7 +39,7 @@ static double kinetic(const o_scene *s, const o_particle *i)
 static double slow(const o_scene *s, o_particle *i, double time, double rest)
 {
     const double before = kinetic(s, i);
-    for (int k = 0; k < SPH_DIM && o_is_body(s, i); k++)
+    for (int k = 0; k < SPH_DIM && o_is_body(s, i) && !o_is_carried(s, i); k++)
         if (!(o_is_solid(s, i) && s->set[i->set].held >> k & 1))
             i->v[k] = i->v[k] * exp(-s->cfg.damping_rate * time) + rest * i->a[k].v;
     return before - kinetic(s, i);
@@ -49,6 +50,7 @@ void o_slow_first(o_scene *s, double dt, double last)
     for (uint32_t a = 0; a < s->n; a++) {
         o_particle *i = &s->own[a];
         i->lost = s->cfg.damping_rate > 0 ? slow(s, i, time, 0) : 0;
+        i->lost = s->set[i->becomes].flow ? 0 : i->lost; /* it will have its velocity again */
         if (s->cfg.integrator < SPH_RUNGE_KUTTA)
             continue;
         o_plus(&s->slowed, i->lost); /* nobody leaves in its first sort */
@@ -71,7 +73,7 @@ void o_even(o_scene *s)
 {
     for (uint32_t a = 0; a < s->n && s->cfg.xsph_velocity; a++) {
         o_particle *i = &s->own[a];
-        if (!o_is_body(s, i))
+        if (!o_is_body(s, i) || o_is_carried(s, i))
             continue;
         const double before = kinetic(s, i);
         for (int k = 0; k < SPH_DIM; k++)

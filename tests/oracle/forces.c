@@ -105,6 +105,8 @@ static void end(const o_scene *s, o_particle *i)
         o_add(&i->worked, -i->a[k].v * set->velocity[k], i->a[k].s * fabs(set->velocity[k]));
         i->a[k] = (o_sum){0, 0};
     }
+    if (o_is_carried(s, i))
+        o_carry_along(i, s->rates_of_middle ? i->middle_rate : i->rate);
 }
 
 void o_forces(o_scene *s)

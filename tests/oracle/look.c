@@ -87,6 +87,22 @@ static sph_status add_points(sph_sim *sim, const plan *p, const uint32_t *set)
     return st;
 }
 
+#if SPH_DIM == 2
+static sph_status add_bed(sph_sim *sim, const plan_bed *b)
+{
+    sph_wall wall = b->wall;
+    wall.motion = sph_motion_steady;
+    wall.motion_ctx = (void *)(uintptr_t)&b->motion;
+    return b->points ? sph_add_wall_polyline(sim, &wall, b->p, b->points, NULL) : SPH_OK;
+}
+#else
+static sph_status add_bed(sph_sim *sim, const plan_bed *b)
+{
+    (void)sim, (void)b;
+    return SPH_OK;
+}
+#endif
+
 #if SPH_DIM > 1
 static sph_status add_flaws(sph_sim *sim, const plan *p, const uint32_t *set)
 {
@@ -119,6 +135,36 @@ uint32_t look_flaws(const sph_sim *sim, uint32_t id, float *threshold)
 }
 #endif
 
+/* along the axis, and sideways, where nothing may come of it; and the density of a row */
+static void uneven(void *ctx, const double *x, double *v, double *rho)
+{
+    const plan_flow *f = ctx;
+    const double at = 3 * x[SPH_DIM - 1] / (f->is.hi[SPH_DIM - 1] - f->is.lo[SPH_DIM - 1]);
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        v[k] = k == f->axis ? v[k] * (1 + f->uneven * sin(at)) : 0.1 * f->uneven * f->is.speed;
+    *rho *= 1 + f->thick * sin(2 * at + 1);
+}
+
+/* inflows and outflows; layers of inflows have come nearer to where the next one was */
+static sph_status add_flows(sph_sim *sim, const plan *p, const uint32_t *set)
+{
+    sph_status st = SPH_OK;
+    for (uint32_t k = 0; !st && k < p->flows; k++) {
+        const plan_flow *f = &p->flow[k];
+        const uint32_t first = sim->now.count;
+        uint32_t own;
+        st = (f->out ? sph_add_outflow : sph_add_inflow)(sim, set[f->fluid], &f->is, &own);
+        if (!st && !f->out)
+            st = sph_apply_field(sim, own, uneven, (void *)(uintptr_t)f);
+        for (uint32_t i = first; !st && i < sim->now.count; i++) {
+            const double way = (0.5 - f->gap * ((i * 37 % 19) + 0.5) / 19) * p->cfg.spacing;
+            sim->buf[sim->cur].pos[f->axis][i] +=
+                (sph_pos)((f->is.face == SPH_HIGH(f->axis) ? way : -way) / sim->grid.quantum);
+        }
+    }
+    return st;
+}
+
 /* layers before edges, as edges.c makes them up */
 static sph_status add_edges(sph_sim *sim, const plan *p)
 {
@@ -141,10 +187,12 @@ sph_sim *look_build(const plan *p, sph_report *why)
         return NULL;
     sph_status st = add_sets(sim, p, set);
     st = st ? st : add_points(sim, p, set);
+    st = st ? st : add_flows(sim, p, set);
     st = st ? st : add_flaws(sim, p, set);
     st = st ? st : add_edges(sim, p);
     for (uint32_t k = 0; !st && k < p->walls; k++)
         st = add_wall(sim, &p->wall[k], &tables[k]);
+    st = st ? st : add_bed(sim, &p->bed);
     const sph_buffer *b = &sim->buf[sim->cur];
     for (uint32_t i = p->points; !st && i < sim->now.count; i++) /* compressible walls are not at rest density */
         if (sim->set[b->set[0][i]].compressible)
@@ -191,6 +239,22 @@ static void read_set(const sph_sim *sim, uint32_t k, o_set *o)
     o->flat = m->flat;
 }
 
+/* an inflow or outflow is as it was asked for */
+static void tell_flow(const plan_flow *f, o_set *o)
+{
+    const bool high = f->is.face == SPH_HIGH(f->axis);
+    o->flow = f->out ? O_OUTFLOW : O_INFLOW;
+    o->axis = f->axis;
+    o->fluid = f->fluid;
+    o->up = high != f->out;
+    for (int k = 0; k < SPH_DIM; k++) {
+        o->lo[k] = f->is.lo[k];
+        o->hi[k] = f->is.hi[k];
+    }
+    o->face = high ? o->hi[f->axis] : o->lo[f->axis];
+    o->end = high ? o->lo[f->axis] : o->hi[f->axis];
+}
+
 /* the kept components as a full deviator, whose trace is 0 */
 static void read_deviator(const sph_buffer *b, uint32_t i, double (*dev)[3])
 {
@@ -215,7 +279,6 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
 {
     const sph_buffer *b = &sim->buf[sim->cur];
     s->cfg = sim->cfg;
-    (void)p;
     s->support = o_weight_support(s->cfg.kernel) * s->cfg.smoothing_length;
     s->time = sim->now.time;
     s->undecided = NULL;
@@ -223,6 +286,8 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
     s->sets = sim->sets;
     for (uint32_t k = 0; k < s->sets; k++)
         read_set(sim, k, &s->set[k]);
+    for (uint32_t k = 0; k < p->flows; k++)
+        tell_flow(&p->flow[k], &s->set[p->fluids + p->solids + k]);
     s->n = sim->now.count;
     s->own = realloc(s->own, (s->n + 1) * sizeof *s->own);
     if (!s->own)
@@ -265,6 +330,7 @@ uint32_t look_results(const sph_sim *sim, seen *to, uint32_t room)
             continue;
         seen *o = &to[id];
         o->there = true;
+        o->set = b->set[0][i];
         o->d = (double)b->rho[0][i];
         o->rate = (double)b->drho[0][i];
         o->plastic = b->plastic[0] ? (double)b->plastic[0][i] : 0;

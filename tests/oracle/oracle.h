@@ -19,6 +19,7 @@
 
 #define O_PI 3.14159265358979323846
 #define O_MAX_FLAWS 20 /* of a particle */
+#define O_MAX_STANDING 512 /* particles taken away in one step */
 
 /* ---- values with their scale ---- */
 
@@ -33,6 +34,8 @@ static inline void o_add(o_sum *a, double term, double magnitude)
 static inline void o_plus(o_sum *a, double term) { o_add(a, term, fabs(term)); }
 
 /* ---- a scene ---- */
+
+enum { O_NO_FLOW, O_INFLOW, O_OUTFLOW };
 
 typedef struct o_set {
     uint32_t role, kind, eos; /* SPH_ROLE_..., SPH_WALL_..., SPH_TAIT ... */
@@ -50,6 +53,9 @@ typedef struct o_set {
     bool flat;
     bool region;                              /* of walls: whether there is one behind the face, */
     double thick;                             /* so thick, m */
+    uint32_t flow, axis, fluid;               /* O_INFLOW ...: of the water `fluid` along an axis, */
+    bool up;                                  /* towards larger x, */
+    double lo[3], hi[3], face, end;           /* m: its box, the face to the water, the opposite one */
 } o_set;
 
 typedef struct o_particle {
@@ -93,6 +99,11 @@ typedef struct o_particle {
     double quiet;              /* Pa, pressure of the damper */
     double way[3];             /* how its place moves: v + xsph, m/s */
     double beside[3];          /* xsph alone */
+    /* flow.c: velocity and density that a flow holds; the set from the sort on; by whom it was born in this step */
+    double held_v[3], held_d;
+    uint32_t becomes, parent;
+    bool born;
+    o_sum middle_rate;         /* d(rho)/dt in the middle of the step */
     /* results */
     o_sum density;             /* relative excess: summed, filtered, or of a wall */
     o_sum wall_v[3];           /* of an Adami wall without slip */
@@ -121,6 +132,12 @@ typedef struct o_scene {
     o_sum shifted;             /* J, what shifting took since o_begin_steps */
     uint32_t left, crossed, put_back; /* particles since o_begin_steps, and their energies, J */
     o_sum carried_off, put_back_loss;
+    /* likewise; let_out: of those who left, through outflows; power of walls when the last forces were made, W */
+    o_sum removed_mass, added_mass, fed, wall_work, wall_power;
+    uint32_t let_out, next_id; /* next_id: the last that was given */
+    uint32_t needed;           /* particles, of a step that fails for want of room */
+    uint32_t standing, stands[O_MAX_STANDING]; /* ids of those who were taken away at the end of the last step */
+    bool rates_of_middle;      /* that flows are held against */
     bool shaken;               /* filters are off by a rounding of rho0, as the kernel's (condition.c) */
     const char *undecided;     /* a choice that rounding decides (a pair exactly at a kernel's edge ...), or null */
 } o_scene;
@@ -242,6 +259,13 @@ bool o_drifts(const o_scene *s);               /* whether positions go with XSPH
 void o_find_disorder(o_scene *s);              /* shifting.c */
 void o_shift(o_scene *s, double dt);
 void o_turn_round(o_particle *p, int k, double plane, bool tensors); /* steps.c: a mirror across axis k at `plane` */
+bool o_is_carried(const o_scene *s, const o_particle *p); /* flow.c: by an inflow or outflow */
+bool o_open_flows(o_scene *s);                 /* at a step's beginning; false: no room */
+void o_straighten(o_scene *s);
+void o_note_held(o_scene *s);
+void o_change_sets(o_scene *s);
+void o_carry_along(o_particle *i, o_sum rate);
+void o_let_out(o_scene *s);
 void o_forces(o_scene *s);                     /* forces.c: everything before and in the force evaluation */
 
 /* a pair gives the home's acceleration `part` (m/s^2) with a scale; books.c keeps the powers of walls */
@@ -250,16 +274,24 @@ void o_push(const o_scene *s, o_particle *i, const o_particle *j, const double *
 /* ---- steps.c: whole steps ---- */
 void o_told(const o_set *set, double t, double *x, double *v); /* what moves as it is told: m, m/s at time t */
 void o_begin_steps(o_scene *s, uint32_t room); /* forgets rates of steps before; of at most `room` particles */
-void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold));
+bool o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold));
 
 /* ---- condition.c ---- */
 typedef struct o_spread { /* what comes of an error at the beginning; infinite: anything */
-    double x, v, d, dev, plastic, root, shifted, quieted, slowed, evened;
+    double x, v, d, dev, plastic, root, shifted, quieted, slowed, evened, worked;
 } o_spread;
 void o_keep(o_scene *kept, const o_scene *s); /* a copy without images, in memory of its own */
 o_spread o_find_spread(const o_scene *start, const o_scene *end, uint32_t steps, double dt,
                        uint32_t (*flaws_of)(uint32_t id, float *threshold));
 double o_shake(const o_scene *s); /* of a filtered density: what rounding may make of it; 0 if it is not shaken */
+
+/* ---- bed.c: particles of a wall along a polyline, with what is told of their piece or corner ---- */
+typedef struct o_bed_particle {
+    double x[2], normal[2], origin[2], half; /* m, -, m, m: of the face: its middle and half its length */
+    bool region, found;
+} o_bed_particle;
+/* layers 0: a row that stands on the wall; thick: of the faces, m; returns how many */
+uint32_t o_lay_bed(o_scene *s, const double (*p)[2], uint32_t n, uint32_t layers, double thick, o_bed_particle *out);
 
 /* ---- crossing.c ---- */
 void o_cross(o_scene *s); /* who is in a wall: removed, or put back */

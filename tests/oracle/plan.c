@@ -399,6 +399,141 @@ static void draw_energy(plan *p)
         p->point[i].warm = range(0.3, 2);
 }
 
+/* how many particles an inflow begins with */
+static uint32_t plan_inflow(const plan *p)
+{
+    double n = 0;
+    for (uint32_t f = 0; f < p->flows; f++) {
+        double own = !p->flow[f].out;
+        for (int k = 0; k < SPH_DIM; k++)
+            own *= o_max(floor((p->flow[f].is.hi[k] - p->flow[f].is.lo[k]) / p->cfg.spacing + 0.5), 1);
+        n += own;
+    }
+    return (uint32_t)n;
+}
+
+/* a box along an axis, `at` m from the domain's low face and so long, across as wide as may be or narrower */
+static void place_flow(plan *p, plan_flow *f, double at, double length)
+{
+    const sph_config *c = &p->cfg;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        const double room = c->hi[k] - c->lo[k];
+        const uint32_t most = SPH_DIM == 3 ? 3 : 6, fit = (uint32_t)o_min(floor(room / c->spacing * (1 + 1e-12)), most);
+        const double wide = o_min(c->spacing * (1 + pick(fit > 0 ? fit : 1)), room);
+        f->is.lo[k] = c->lo[k] + (k == f->axis ? at : range(0, 0.999) * (room - wide));
+        f->is.hi[k] = k == f->axis ? f->is.lo[k] + length : o_min(f->is.lo[k] + wide, c->hi[k]);
+        if (k != f->axis && (f->out ? chance(0.7) : room < most * c->spacing && chance(0.7))) {
+            f->is.lo[k] = c->lo[k];
+            f->is.hi[k] = c->hi[k];
+        }
+    }
+}
+
+/* some water stands before an outflow's face, some before its end, on its way */
+static void draw_the_leaving(plan *p, const plan_flow *f, bool up)
+{
+    const sph_config *c = &p->cfg;
+    for (uint32_t n = 2 + pick(6); n > 0; n--) {
+        plan_point *q = &p->point[pick(p->points)];
+        const double at = chance(0.5) == up ? f->is.lo[f->axis] : f->is.hi[f->axis];
+        const double way = range(0.3, 1.5) * f->is.speed;
+        if (q->set != f->fluid && chance(0.8))
+            continue;
+        for (uint32_t k = 0; k < SPH_DIM; k++)
+            q->x[k] = range(f->is.lo[k], f->is.hi[k]);
+        q->x[f->axis] = at + (up ? -1 : 1) * c->spacing * pow(10, range(-3, 0));
+        q->v[f->axis] = (up ? way : -way) * (chance(0.1) ? -1 : 1);
+    }
+}
+
+/* an inflow, an outflow, or both along one axis, a few steps; last, so that scenes without are as they were */
+static void draw_flows(plan *p)
+{
+    sph_config *c = &p->cfg;
+    if (c->solid != SPH_NO_SOLID || c->energy || c->density != SPH_CONTINUITY || !p->steps || !chance(0.6))
+        return;
+    const uint32_t axis = pick(SPH_DIM), kinds = 1 + pick(3);
+    const bool up = chance(0.5);
+    const double dx = c->spacing, support = o_weight_support(c->kernel) * c->smoothing_length;
+    double at = range(1, 3) * dx, length[2];
+    p->way = range(0.05, 0.6);
+    p->steps = 1 + pick(8);
+    for (int k = 0; k < 2; k++) { /* in order along the axis */
+        plan_flow *f = &p->flow[p->flows];
+        const bool out = (k == 1) == up;
+        length[k] = dx * (floor(support / dx) + 1 + pick(2));
+        if (!(kinds & (out ? 2 : 1)))
+            continue;
+        *f = (plan_flow){.out = out, .axis = axis, .fluid = pick(p->fluids), .gap = pow(10, range(-1.5, 0))};
+        f->is.face = out == up ? SPH_LOW(axis) : SPH_HIGH(axis);
+        f->is.speed = p->flows ? p->flow[0].is.speed : c->sound_speed * pow(10, range(-1, 0.5));
+        f->uneven = !out && chance(0.5) ? range(0, 1.2) : 0;
+        f->thick = !out && chance(0.5) ? range(0, 0.1) : 0;
+        c->hi[axis] = o_max(c->hi[axis], c->lo[axis] + at + length[k] + range(1, 2) * dx);
+        place_flow(p, f, at, length[k]);
+        if (out)
+            draw_the_leaving(p, f, up);
+        at += length[k] + range(2, 5) * dx;
+        p->flows++;
+    }
+    c->max_flows = p->flows;
+    if (p->walls == 0 && chance(0.4)) /* scarce, so that ids come round */
+        c->max_particles = p->points + pick(4) + plan_inflow(p);
+}
+
+/* turns of at most a right angle, and the pieces so long that the deepest layer has more than a spacing of each */
+static void draw_way(plan_bed *b, double layers, double dx)
+{
+    double half[PLAN_BED + 1] = {0}, way = range(0, 2 * O_PI); /* tan(turn/2); none at the ends */
+    double turn[PLAN_BED] = {0};
+    for (uint32_t k = 1; k + 1 < b->points; k++) {
+        turn[k] = chance(0.1) ? 0 : chance(0.2) ? 0.5 * O_PI : range(0.01, 1.5);
+        turn[k] *= chance(0.5) ? 1 : -1;
+        half[k] = tan(0.5 * turn[k]);
+    }
+    for (uint32_t k = 1; k < b->points; k++) {
+        const double lost = o_max(-layers * (half[k - 1] + half[k]), 0), length = (range(1.02, 4) + lost) * dx;
+        way += turn[k - 1];
+        b->p[k][0] = b->p[k - 1][0] + length * cos(way);
+        b->p[k][1] = b->p[k - 1][1] + length * sin(way);
+    }
+}
+
+/* a wall along a polyline, one of whose points is near one of the particles; the domain grows until it holds it */
+static void draw_bed(plan *p)
+{
+    sph_config *c = &p->cfg;
+    const double dx = c->spacing, support = o_weight_support(c->kernel) * c->smoothing_length;
+    plan_bed *b = &p->bed;
+    if (SPH_DIM != 2 || c->max_particles < 4096 || p->points == 0 || !chance(0.2))
+        return;
+    b->wall = sph_wall_default();
+    b->wall.kind = chance(0.65) && c->eos != SPH_IDEAL_GAS ? SPH_WALL_GHOST + pick(2) : pick(SPH_WALL_GHOST);
+    b->wall.kind -= b->wall.kind == SPH_WALL_MONAGHAN_KOS && support < 2 * dx;
+    b->wall.compressible = c->density == SPH_CONTINUITY && chance(0.5);
+    b->wall.no_slip = chance(0.6);
+    if (b->wall.kind >= SPH_WALL_GHOST && !b->wall.compressible && chance(0.2))
+        b->wall.side = SPH_FRONT + pick(2);
+    b->wall.layers = chance(0.1) ? 0 : 1 + pick(3);
+    b->wall.strength = chance(0.5) ? 0 : range(0.01, 5);
+    b->points = 2 + pick(PLAN_BED - 1);
+    const double layers = b->wall.layers ? b->wall.layers : ceil(support / dx);
+    const plan_point *q = &p->point[pick(p->points)];
+    draw_way(b, layers, dx);
+    const uint32_t middle = pick(b->points);
+    const double at[2] = {b->p[middle][0], b->p[middle][1]};
+    for (int k = 0; k < SPH_DIM; k++) {
+        const double by = q->x[k] + range(-2, 2) * dx, room = (1.5 * layers + range(0, 1)) * dx;
+        for (uint32_t i = 0; i < b->points; i++) {
+            b->p[i][k] += by - at[k];
+            c->lo[k] = o_min(c->lo[k], b->p[i][k] - room);
+            c->hi[k] = o_max(c->hi[k], b->p[i][k] + room);
+        }
+        b->motion.v[k] = chance(0.4) ? range(-0.1, 0.1) * c->sound_speed : 0;
+        b->motion.a[k] = chance(0.2) ? range(-50, 50) : 0;
+    }
+}
+
 void plan_draw(plan *p, uint64_t seed)
 {
     memset(p, 0, sizeof *p);
@@ -444,6 +579,8 @@ void plan_draw(plan *p, uint64_t seed)
         p->cfg.hourglass = 0;
         p->steps = 0; /* layers made up at random amplify whatever they are given, rounding too */
     }
+    draw_flows(p);
+    draw_bed(p);
 }
 
 void plan_print(const plan *p)
@@ -500,6 +637,21 @@ void plan_print(const plan *p)
     for (uint32_t k = 0; k < p->solids; k++)
         for (int a = 0; p->solid[k].held && a < SPH_DIM; a++)
             printf("  solid %u: held, axis %d: v %.9g a %.9g\n", k, a, p->held[k].v[a], p->held[k].a[a]);
+    if (p->bed.points)
+        printf("  bed: %s%s%s %s layers %u strength %g\n", word[8][p->bed.wall.kind],
+               p->bed.wall.compressible ? " compressible" : "", p->bed.wall.no_slip ? " no slip" : "",
+               word[9][p->bed.wall.side], p->bed.wall.layers, p->bed.wall.strength);
+    for (uint32_t k = 0; k < p->bed.points; k++)
+        printf("  bed: %.17g %.17g\n", p->bed.p[k][0], p->bed.p[k][1]);
+    for (uint32_t k = 0; k < p->flows; k++) {
+        const plan_flow *f = &p->flow[k];
+        printf("  %s of fluid %u, axis %u, face %u, speed %g, gap %g, uneven %g, thick %g, way %g, room %u; box",
+               f->out ? "outflow" : "inflow", f->fluid, f->axis, f->is.face, f->is.speed, f->gap, f->uneven, f->thick,
+               p->way, c->max_particles);
+        for (int a = 0; a < SPH_DIM; a++)
+            printf(" %.17g .. %.17g", f->is.lo[a], f->is.hi[a]);
+        printf("\n");
+    }
     for (uint32_t i = 0; i < p->points && i < 12; i++) {
         printf("  point %u: set %u d %.9g x", i, p->point[i].set, p->point[i].d);
         for (int k = 0; k < SPH_DIM; k++)

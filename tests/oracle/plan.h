@@ -6,7 +6,8 @@
 
 #include "oracle.h"
 
-enum { PLAN_POINTS = 64, PLAN_SETS = 3, PLAN_WALLS = 2, PLAN_PROBES = 6, PLAN_ROWS = 4 };
+enum { PLAN_POINTS = 64, PLAN_SETS = 3, PLAN_WALLS = 2, PLAN_PROBES = 6, PLAN_ROWS = 4, PLAN_FLOWS = 2,
+       PLAN_BED = 5 };
 
 /* a step of nearly no time, in spacings over the sound speed */
 #define PLAN_STILL 1e-10
@@ -29,6 +30,21 @@ typedef struct plan_wall {
     double t[PLAN_ROWS], x[PLAN_ROWS];
 } plan_wall;
 
+typedef struct plan_flow {
+    bool out;
+    uint32_t axis, fluid;
+    sph_flow is;
+    double gap;             /* of an inflow: a layer begins at most so far from the next one's place, in spacings */
+    double uneven, thick;   /* speeds vary by so much, with something sideways; densities too */
+} plan_flow;
+
+typedef struct plan_bed { /* a wall along a polyline, 2-D */
+    sph_wall wall;
+    sph_steady motion;
+    uint32_t points; /* 0: none */
+    double p[PLAN_BED][2];
+} plan_bed;
+
 typedef struct plan_flaws { /* as sph_flaws, which 1-D has not */
     double k, m;
     uint64_t seed;
@@ -43,6 +59,10 @@ typedef struct plan {
     sph_steady held[PLAN_SETS];
     plan_flaws flaws[PLAN_SETS]; /* k 0: none */
     plan_wall wall[PLAN_WALLS];
+    uint32_t flows;
+    plan_flow flow[PLAN_FLOWS];
+    plan_bed bed;
+    double way;    /* spacings, of flows in a step, if that can be */
     double wall_d; /* densities of compressible ghosts vary by so much */
     plan_point point[PLAN_POINTS];
     double probe[PLAN_PROBES][3];
@@ -59,6 +79,7 @@ void plan_print(const plan *p);
 /* one particle as the kernel has it, by id */
 typedef struct seen {
     bool there;
+    uint32_t set;
     double x[3], v[3], a[3], d, rate, drift[3];
     double dev[5], dev_rate[5], plastic, root, phi, u, warmed;
     double disorder[4]; /* of shifting: minus the slope, then what the cover is above 1 */
@@ -83,7 +104,7 @@ typedef struct difference {
 
 typedef enum { PLAN_SAME, PLAN_DIFFERS, PLAN_REFUSED, PLAN_UNDECIDED } verdict;
 
-enum { PLAN_QUANTITIES = 48 };
+enum { PLAN_QUANTITIES = 56 };
 /* Runs kernel and oracle on a plan; d[0 .. *n - 1]: the largest difference of each quantity that differs (of `only`, if
    that is not null); *why: what a plan was refused for, or what rounding decides. */
 verdict plan_compare(const plan *p, const char *only, difference *d, uint32_t *n, const char **why);

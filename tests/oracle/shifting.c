@@ -100,7 +100,7 @@ void o_shift(o_scene *s, double dt)
         double way[3] = {0}, taken = stored(s, i);
         passage end[3];
         bool left = false;
-        if (!o_is_body(s, i))
+        if (!o_is_body(s, i) || o_is_carried(s, i))
             continue;
         const double more = o_min(by / h, 0.5) * i->filling.v;
         o_close(s, "a filling at its bound", fabs(more), 1, 1 + i->filling.s);

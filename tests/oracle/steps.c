@@ -79,13 +79,30 @@ static void remember_state(const o_scene *s)
     }
 }
 
+/* power of walls and of what holds flows, W */
+static o_sum walls_power(const o_scene *s)
+{
+    o_sum sum = {0, 0};
+    for (uint32_t i = 0; i < s->n; i++) {
+        const double m = s->set[s->own[i].set].mass;
+        if (o_is_body(s, &s->own[i]))
+            o_add(&sum, m * s->own[i].worked.v, m * s->own[i].worked.s);
+    }
+    return sum;
+}
+
 void o_begin_steps(o_scene *s, uint32_t room)
 {
+    room = s->cfg.max_flows ? s->cfg.max_particles : room;
     was = realloc(was, (room + 1) * sizeof *was);
     if (!was)
         abort();
     memset(was, 0, room * sizeof *was);
     last = 0;
+    s->removed_mass = s->added_mass = s->fed = s->wall_work = (o_sum){0, 0};
+    s->let_out = s->standing = s->needed = 0;
+    s->next_id = s->cfg.max_particles; /* before 0 */
+    s->wall_power = walls_power(s);
     s->shifted = s->carried_off = s->put_back_loss = (o_sum){0, 0};
     s->quieted = s->slowed = s->evened = (o_sum){0, 0};
     s->left = s->crossed = s->put_back = 0;
@@ -187,11 +204,13 @@ void o_turn_round(o_particle *p, int k, double plane, bool tensors)
     }
 }
 
-/* those who are gone are taken out of the list, and of what is remembered */
-static void forget_the_gone(o_scene *s)
+/* those who are gone are taken out of the list, and of what is remembered; at a step's end their ids stay taken */
+static void forget_the_gone(o_scene *s, bool at_end)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < s->n; i++) {
+        if (s->own[i].gone && at_end && s->standing < O_MAX_STANDING)
+            s->stands[s->standing++] = s->own[i].id;
         if (s->own[i].gone)
             continue;
         s->own[n] = s->own[i];
@@ -204,10 +223,11 @@ static void leave(o_scene *s, o_particle *p, const beginning *b)
 {
     p->gone = true;
     s->left++;
+    o_plus(&s->removed_mass, s->set[p->set].mass);
     o_plus(&s->carried_off, b->energy + p->lost);
 }
 
-static void pass_faces(o_scene *s)
+static void pass_faces(o_scene *s, bool at_end)
 {
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
@@ -235,7 +255,7 @@ static void pass_faces(o_scene *s)
             }
         }
     }
-    forget_the_gone(s);
+    forget_the_gone(s, at_end);
 }
 /* component k of a vector of the beginning, in the frame that mirrors have turned since */
 static double turned(const beginning *b, int k, double v) { return b->turned[k] ? -v : v; }
@@ -246,6 +266,19 @@ static double mirrored(const beginning *b, int k, int l, double v)
 }
 
 /* ---- pieces of steps ---- */
+
+/* what inflows and outflows carry has its velocity and density again */
+static void hold(o_scene *s)
+{
+    for (uint32_t i = 0; i < s->n; i++) {
+        o_particle *p = &s->own[i];
+        if (!o_is_carried(s, p))
+            continue;
+        p->d = p->held_d;
+        for (int k = 0; k < SPH_DIM; k++)
+            p->v[k] = turned(&was[i], k, p->held_v[k]);
+    }
+}
 
 static void foresee_damage(o_scene *s, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
 {
@@ -294,7 +327,9 @@ static void go(o_scene *s, double drift, double bend, double kick, double rate)
             for (int l = 0; l < 3; l++)
                 p->dev[k][l] = b->dev[k][l] + rate * b->dev_rate[k][l];
     }
-    pass_faces(s);
+    pass_faces(s, false);
+    o_change_sets(s);
+    hold(s);
     restrain(s);
 }
 
@@ -305,6 +340,7 @@ static void find_density(o_scene *s, uint32_t number)
         o_sum_density(s);
     if (s->cfg.shepard_every && number % s->cfg.shepard_every == 0)
         o_filter_density(s);
+    hold(s);
 }
 
 /* what evolves by a whole step of the rates that stand, from what was */
@@ -331,7 +367,7 @@ static void mend_drift(o_scene *s, double dt)
         for (int k = 0; k < SPH_DIM && o_is_body(s, &s->own[i]); k++)
             if (!is_held(s, &s->own[i], k))
                 s->own[i].x[k] += half(dt) * (s->own[i].drift[k].v - turned(&was[i], k, was[i].u[k]));
-    pass_faces(s);
+    pass_faces(s, true);
 }
 
 /* ---- the integrators ---- */
@@ -346,6 +382,7 @@ static void predict_correct(o_scene *s, uint32_t number, double dt)
     for (uint32_t i = 0; i < s->n; i++)
         if (foresees && evolves(s, &s->own[i]))
             s->own[i].d += foresight * was[i].rise;
+    hold(s);
     for (uint32_t i = 0; i < s->n; i++)
         o_quiet(s, &s->own[i], was[i].rate + 2 * was[i].rise * (dt < 2 * last ? dt / last : 2));
     s->time += dt;
@@ -386,6 +423,8 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
             s->own[i].x[k] -= half(dt) * (s->own[i].v[k] + turned(&was[i], k, was[i].u[k]));
     o_forces(s);
     for (uint32_t i = 0; i < s->n; i++)
+        s->own[i].middle_rate = s->own[i].rate;
+    for (uint32_t i = 0; i < s->n; i++)
         for (int k = 0; k < SPH_DIM; k++)
             s->own[i].x[k] += half(dt) * (s->own[i].v[k] + turned(&was[i], k, was[i].u[k]));
     go_whole(s, dt);
@@ -403,11 +442,14 @@ static void kick_drift(o_scene *s, uint32_t number, double dt)
             if (!is_held(s, p, k))
                 p->v[k] += half(dt) * turned(b, k, b->a[k]);
     }
+    hold(s);
     filter(s, s->time, s->time + dt, true);
     s->time += dt;
     tell(s, s->time, 0);
     find_density(s, number);
+    s->rates_of_middle = true;
     o_forces(s);
+    s->rates_of_middle = false;
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         const beginning *b = &was[i];
@@ -427,13 +469,16 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
 {
     const double begun = s->time;
     if (number > 1) /* at first all are where the kernel has them, if only just; later, who was put back outside */
-        pass_faces(s);
+        pass_faces(s, false);
+    o_change_sets(s);
+    hold(s);
     tell(s, begun, 0); /* and what is held has its own velocity again, not that of the wall it was put back off */
     filter(s, begun, begun, false);
     find_density(s, number);
     o_forces(s);
     remember_rates(s);
     remember_state(s);
+    o_note_held(s);
     s->time += half(dt);
     tell(s, s->time, 0);
     filter(s, begun, s->time, false);
@@ -462,15 +507,29 @@ static void runge_kutta(o_scene *s, uint32_t number, double dt)
         memset(was[i].turned, 0, sizeof was[i].turned);
         memset(was[i].mirrored, 0, sizeof was[i].mirrored);
     }
-    pass_faces(s);
+    pass_faces(s, true);
     s->time += half(dt);
     tell(s, s->time, 0);
     filter(s, begun, s->time, true);
 }
 
-void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
+/* the work of walls: by the trapezoidal rule; Runge-Kutta's powers are of the step's middle */
+static void book_walls(o_scene *s, double dt)
+{
+    const bool middle = s->cfg.integrator == SPH_RUNGE_KUTTA || s->cfg.integrator == SPH_RUNGE_KUTTA_MOMENTUM;
+    const o_sum was_then = s->wall_power, now = walls_power(s);
+    o_add(&s->wall_work, middle ? dt * now.v : half(dt) * (was_then.v + now.v), dt * (was_then.s + now.s));
+    s->wall_power = now;
+}
+
+bool o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_t id, float *threshold))
 {
     const uint32_t by = s->cfg.integrator;
+    const uint32_t n = s->n;
+    if (!o_open_flows(s))
+        return false;
+    for (uint32_t i = n; i < s->n; i++)
+        was[i] = was[s->own[i].parent];
     o_slow_first(s, dt, last);
     remember_state(s);
     foresee_damage(s, dt, flaws_of);
@@ -480,10 +539,13 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
         kick_drift(s, number, dt);
     else
         runge_kutta(s, number, dt);
+    hold(s);
     o_cross(s);
+    o_let_out(s);
     for (uint32_t i = 0; i < s->n; i++) /* of those who left in the first sort it took nothing */
         o_plus(&s->slowed, s->own[i].lost);
-    forget_the_gone(s);
+    forget_the_gone(s, true);
+    book_walls(s, dt);
     for (uint32_t i = 0; i < s->n && s->cfg.damper > 0; i++) {
         const o_particle *p = &s->own[i];
         const double end = by == SPH_PREDICTOR_CORRECTOR ? p->rate.v / s->set[p->set].rho0 : 2 * was[i].rise;
@@ -495,7 +557,7 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     for (uint32_t i = 0; i < s->n; i++) {
         o_particle *p = &s->own[i];
         const double f = exp(-s->cfg.sponge_rate * o_sponge(s, p) * dt);
-        for (int k = 0; k < SPH_DIM && o_is_body(s, p); k++)
+        for (int k = 0; k < SPH_DIM && o_is_body(s, p) && !o_is_carried(s, p); k++)
             if (!is_held(s, p, k))
                 p->v[k] = s->cfg.sponge_velocity[k] + (p->v[k] - s->cfg.sponge_velocity[k]) * f;
     }
@@ -504,14 +566,14 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
     last = dt;
     if (by == SPH_RUNGE_KUTTA || by == SPH_RUNGE_KUTTA_MOMENTUM) {
         if (s->cfg.density == SPH_SUMMATION) { /* of where they are */
-            pass_faces(s);
+            pass_faces(s, false);
             find_density(s, number);
         }
-        return;
+        return true;
     }
     if (by == SPH_PREDICTOR_CORRECTOR) {
         remember_rates(s);
-        return;
+        return true;
     }
     for (uint32_t i = 0; i < s->n; i++) { /* accelerations are of the end, rates of the middle */
         was[i].rate = was[i].rise;
@@ -520,4 +582,5 @@ void o_step(o_scene *s, uint32_t number, double dt, uint32_t (*flaws_of)(uint32_
             was[i].u[k] = o_drifts(s) ? s->own[i].drift[k].v : 0;
         }
     }
+    return true;
 }
