@@ -839,8 +839,8 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
                 beforehand. So has the first after a step that failed or was given up, and after a restore.
      a step     at most E (3^DIM c n + cells + 32) + 28 n + 4 cells units. E counts its sweeps: 1 for the forces (2
                 for all integrators but the predictor-corrector), as many again with Adami walls, with SPH_CORRECTED
-                or SPH_TOTAL, with xsph_strain, with gradients of fluids, with a viscous stress, with SPH_ANTUONO, with normalised
-                kernels and with hourglass, twice as many with SPH_STABILISED; 1 each for the
+                or SPH_TOTAL, with xsph_strain, with gradients of fluids, with a viscous stress, with SPH_ANTUONO,
+                with normalised kernels and with hourglass, twice as many with SPH_STABILISED; 1 each for the
                 density filter and summation (with Runge-Kutta 2 and 4: with the latter it sorts once more).
    Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)
