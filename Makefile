@@ -239,6 +239,7 @@ builds_test_plates  := 1d 2f 2d 3f
 builds_test_quadrature := 1d 2f 2d 3f
 builds_test_grid    := $(BUILDS)
 builds_test_oracle  := $(BUILDS)
+builds_test_smoothing_length := $(BUILDS)
 builds_test_inspect := 1f 2f 2d 3f
 builds_test_probes  := $(BUILDS)
 builds_test_shifting := $(BUILDS)

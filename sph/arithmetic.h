@@ -26,6 +26,7 @@ _Static_assert(sizeof 1.0 == sizeof(double), "sph must not be built with -fsingl
     X(mls) X(motions) X(move) X(neighbours) X(normalised) X(openings) X(options) X(outline) X(polyline)            \
     X(powers) X(probes) X(quadrature) X(reading) X(records) X(reference) X(report) X(restore) X(run) X(settle)     \
     X(setup) X(shapes) X(shear) X(shifting) X(smoothing) X(sort) X(sponge) X(stabilised) X(state) X(stream)        \
+    X(smoothing_length)                                                                                            \
     X(stress) X(sweep) X(threads) X(tiles) X(timestep) X(totals) X(validate) X(yield)
 
 /* what a probe computes with; volatile, so that no compiler can do it itself */

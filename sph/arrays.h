@@ -16,6 +16,7 @@
     ONE(material, sph_material, c->max_sets, sph_has_solids(c), "materials")                                          \
     ONE(extra, sph_real, (size_t)c->max_threads * extra_reals(c, NULL), true, "thread scratch of columns")        \
     ONE(cell, uint32_t, (size_t)g->cells + 2, true, "cell starts") /* cells + 1 of them are used */                   \
+    ONE(strip, uint8_t, (size_t)g->cells / SPH_STRIP + 9, SPH_STRIPS, "strips of cells") /* SPH_PEOPLED ... */ \
     ONE(slab, uint32_t, (size_t)g->slabs + 1, true, "slab starts") /* in the source buffer */                         \
     ONE(turned, uint8_t, SPH_ROOM(c), sph_has_any_mirrors(c), "turned by mirrors") /* by source index */              \
     ONE(tmp, sph_real, SPH_ROOM(c), sph_filters(c) || sph_sums_density(c), "filtered density")                        \
@@ -39,6 +40,7 @@
     ONE(taken, uint8_t, c->max_particles, sph_has_flows(c), "ids in use") /* flow.c */                                \
     ONE(births, uint32_t, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_has_flows(c), "births of chunks")               \
     MANY(disorder, sph_real, SPH_DIM + 1, SPH_ROOM(c), sph_shifts(c), "disorder") /* shifting.c */                    \
+    ONE(wide, sph_real, SPH_ROOM(c), sph_varies_h(c), "smoothing lengths")                                            \
     ONE(damper_press, sph_real, SPH_ROOM(c), sph_quiets(c), "pressure of the damper")                                 \
     ONE(damper_loss, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_quiets(c), "energy of the damper, of chunks") \
     ONE(slowing, double, c->max_particles / SPH_LOCAL_CHUNK + 1, sph_slows(c), "energy of damping, of chunks")       \

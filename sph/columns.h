@@ -24,6 +24,7 @@
     X(density_gradient, 0, SPH_DIM, SPH_WITH_ANTUONO, sph_takes_density_gradient(c))                               \
     X(shear, 0, SPH_NL + 1, SPH_WITH_SHEAR, sph_shears(c))                                                          \
     X(energy, 0, 1, SPH_WITH_ENERGY, sph_has_energy(c))                                                            \
+    X(wide, 0, 1, SPH_WITH_VARIABLE_H, sph_varies_h(c))                                                            \
     SPH_EXTRA_COLUMNS(X)
 
 enum {

@@ -115,6 +115,7 @@ sph_status sph_check_config(const sph_config *c, sph_grid *grid, size_t *bytes, 
     if ((st = sph_options_check(c, r)) != SPH_OK || (st = check_hooks(c, r)) != SPH_OK ||
         (st = check_domain(c, r)) != SPH_OK || (st = check_fluids(c, r)) != SPH_OK ||
         (SPH_WITH_ENERGY && (st = check_energy(c, r)) != SPH_OK) ||
+        (SPH_WITH_VARIABLE_H && (st = sph_check_smoothing_length(c, r)) != SPH_OK) ||
         (SPH_WITH_SPONGE && (st = sph_check_sponge(c, r)) != SPH_OK) ||
         (SPH_WITH_FLOW && (st = sph_check_flows(c, r)) != SPH_OK) ||
         (SPH_WITH_DAMPER && (st = sph_check_damper(c, r)) != SPH_OK) ||

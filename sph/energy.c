@@ -4,11 +4,12 @@
 
    The limits are made of the sound of sets (timestep.c): that of a gas particle is told as an |mu|, by which the
    Courant limit cfl h/(c0 + h mu) is the one of c_i + h mu_i; and where viscosity would ask for less, viscous_factor
-   h^2/nu with nu = alpha c_i h/(2 (DIM + 2)), that one. Where a gas is colder than its set began the step is shorter
-   than it need.
+   h^2/nu with nu = alpha c_i h/(2 (DIM + 2)), that one. Where h varies (c_i + h_i mu_i)/h_i is what is told. Where a
+   gas is colder than its set began the step is shorter than it need.
 
    Fields: u and its rate, 2 reals a particle in each buffer. Cost: a column and a sum in the force loop. */
 #include "energy.h"
+#include "varying.h"
 #include "arithmetic.h"
 
 SPH_OBJECT(energy)
@@ -38,7 +39,8 @@ sph_real sph_energy_mu(const sph_sim *sim, const sph_thread *t, uint32_t h, sph_
     const bool artificial = sph_viscous(c->viscosity) && !SPH_IS(c->viscosity, MORRIS);
     const double viscous = artificial ? sim->courant * c->alpha / (2 * (SPH_DIM + 2) * c->viscous_factor) : 0;
     const double sound = (double)sph_home_sound(sim, t, h) * (viscous > 1 ? viscous : 1);
-    const sph_real told = mu + (sph_real)((sound - set->c0) / c->smoothing_length);
-    return sph_is_gas(set) && told > mu ? told : mu;
+    const double wide = (double)sph_home_wide(sim, t, h);
+    const sph_real told = mu + (sph_real)((sound / wide - set->c0) / c->smoothing_length);
+    return (sph_is_gas(set) || sph_varies_h(c)) && told > mu ? told : mu;
 }
 #endif

@@ -181,25 +181,36 @@ static void make_levels(const sph_config *c, sph_factors *f)
     }
 }
 
+/* shifting: (W(0.8 dx)/W(dx))^4, at: W(dx); beyond all where the kernel does not reach a spacing */
+static double pair_bound(const sph_config *c, double at)
+{
+    double w, dw;
+    sph_kernel_value(c->kernel, SPH_SHIFT_APART * c->spacing, c->smoothing_length, &w, &dw);
+    const double near2 = at > 0 ? w / at * (w / at) : 1e15;
+    return near2 * near2;
+}
+
 /* constants of the pair formulas; made at init and when the configuration changes */
 void sph_make_factors(sph_sim *sim)
 {
     const sph_config *c = &sim->cfg;
     sph_factors *f = &sim->fac;
-    double h = c->smoothing_length, value, slope, support = sph_kernel_support(c->kernel);
+    const double most = sph_largest_h(c), support = sph_kernel_support(c->kernel);
+    double h = c->smoothing_length, value, slope;
     sph_kernel_scales(c->kernel, h, &value, &slope);
     f->inv_h = (sph_real)(1 / h);
     f->eta = (sph_real)(0.01 * h * h); /* keeps pairs at one place finite */
     f->eta_morris = (sph_real)(1e-6 * h * h);
     f->reach = (sph_real)support;
     /* the scalar form skips pairs beyond: all terms are 0 there */
-    f->reach2 = (sph_real)(support * support * h * h * 1.0001);
+    f->reach2 = (sph_real)(support * support * most * most * 1.0001);
     f->slope = (sph_real)slope;
     f->value = (sph_real)value;
     if (sph_repels(c) || sph_is_total(c) || sph_shifts(c)) {
         double at, dw;
         sph_kernel_value(c->kernel, c->spacing, h, &at, &dw);
         f->inv_wdx = at > 0 ? (sph_real)(value / at) : 0;
+        f->apart = sph_shifts(c) ? (sph_real)pair_bound(c, at) : 0;
         f->repulsion = (sph_real)c->stress_epsilon;
         const double density = sph_weak_scheme(c->scheme) ? c->rho0 : 1 / c->rho0;
         f->contact = (sph_real)(2 * c->sound_speed * c->sound_speed * density);

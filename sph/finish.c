@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* finish.c: what becomes of a home's sums in the force sweep (forces.c): its acceleration with gravity and the host's
    body force, its rate of density, XSPH's velocity, and its powers for the books. Arrays: the state's acc, drho, xsph
-   and the powers. Cost: a few folds of eight lanes a particle. */
+   and the powers. Cost: a few folds of eight lanes a particle, 8 % of a step's instructions. For all homes of a cell at
+   once, in vectors of four, a default dam break has 1.9 % fewer, for a second text of all this: not done. */
 #include "finish.h"
 
 #include "boundary.h"
@@ -11,6 +12,7 @@
 #include "shift_sums.h"
 #include "stress.h"
 #include "term.h"
+#include "varying.h"
 #include "arithmetic.h"
 
 SPH_OBJECT(finish)
@@ -194,7 +196,7 @@ SPH_INLINE sph_real finish_forces(sph_sim *sim, sph_thread *t, uint32_t h)
         sph_finish_shift(sim, t, h);
     const sph_real mu = v_fold_max(t->sum[SUM_MU][h]);
     t->peaks.mu = larger(t->peaks.mu, sph_has_energy(&sim->cfg) ? sph_energy_mu(sim, t, h, mu) : mu);
-    t->peaks.acc = larger(t->peaks.acc, a2);
+    t->peaks.acc = larger(t->peaks.acc, sph_told_acc(sim, t, h, a2));
     t->peaks.speed = larger(t->peaks.speed, v2);
     return a2;
 }

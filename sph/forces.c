@@ -33,6 +33,7 @@
 #include "shift_sums.h"
 #include "stabilised.h"
 #include "stress.h"
+#include "varying.h"
 #include "viscosity.h"
 #include "xsph.h"
 #include "arithmetic.h"
@@ -49,7 +50,8 @@ typedef struct at_home {
     const sph_mirror_tile *mirror;
     const sph_stress_tile *stress;
     const sph_reference_tile *reference;
-    const sph_real *smoothed, *corrected, *sheared, *sounds, *steepness;
+    const sph_real *smoothed, *corrected, *sheared, *sounds, *widths, *steepness;
+    vreal wide;
     const sph_home *home;
     const sph_gradient_home *gradient;
     const vreal *slope; /* G of density_gradient.c */
@@ -88,6 +90,7 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
     if (!sph_within(k2, o->f->reach2, skips(o->c)))
         return false;
     p->q = v_sqrt(k2) * o->f->inv_h;
+    sph_pair_width(o->c, o->wide, o->widths, p);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         p->dv[k] = p->dw[k] = o->home->v[k] - v_load(o->tile->v[k] + p->j);
@@ -99,7 +102,7 @@ SPH_INLINE bool geometry(const at_home *o, sph_near *p)
 /* what the kernel and the candidates' own columns give to every term */
 SPH_INLINE void kernel(const at_home *o, sph_near *p)
 {
-    p->mg = k_slope(o->c->kernel, p->q) * v_load(o->tile->m + p->j);
+    p->mg = sph_narrowed(o->c, p, k_slope(o->c->kernel, p->q)) * v_load(o->tile->m + p->j);
     p->rho = v_load(o->tile->rho + p->j);
     p->press = v_load(o->tile->press + p->j);
     p->inv_rho = sph_needs_inv_rho(o->c) ? v_load(o->tile->inv_rho + p->j) : p->rho;
@@ -136,6 +139,7 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     p.force = v_set(0);
     p.apart = v_set_int(0);
     p.gain = v_set(0);
+    p.wide = p.narrow = v_set(1);
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++)
         p.push[k] = v_set(0);
@@ -186,8 +190,9 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
     const uint32_t gradient = SPH_WITH_SOLID && c->solid ? SPH_SUM_MASK(SUM_GRADIENT, SPH_NL) : 0;
     const uint32_t heat = SPH_WITH_ENERGY && c->energy ? SUM_MASK(HEAT) : 0;
     const uint32_t rates = SUM_MASK(DRHO) | gradient | heat;
+    const uint32_t shifts = SPH_SHIFT_ROWS - (c->shifting > 1 ? 0u : SPH_DIM); /* without NEARER */
     const uint32_t forces = SUM_MASK(MU) | SUM_MASK(ACC) | (SPH_WITH_XSPH && c->xsph ? SUM_MASK(XSPH) : 0) |
-                            (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, SPH_SHIFT_ROWS) : 0) |
+                            (SPH_WITH_SHIFTING && c->shifting ? SPH_SUM_MASK(SUM_SHIFT, shifts) : 0) |
                             (SPH_WITH_BOOKS && c->books ? book_sums(c, wall) | gradient : 0) |
                             (c->edge ? gradient : 0);
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
@@ -249,6 +254,10 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         energy = sph_spread_energy(sim, t, h);
         o.energy = &energy;
     }
+    if (sph_varies(c)) {
+        o.widths = sph_near_columns_of(sim, t, SPH_COLUMN_wide);
+        o.wide = v_set(sph_home_wide(sim, t, h));
+    }
     sph_stress_home solid;
     if (SPH_WITH_SOLID) /* a place, whether the scene has it or not */
         o.stress = sph_stress_tile_of(sim, t);
@@ -298,6 +307,7 @@ SPH_APART void force_losing(const sph_choice *c, const sph_factors *f, const sph
     sph_choice own = *c;
     own.loses = own.books = 1;
     own.solid = SPH_WITH_SOLID && own.solid;
+    own.varies = 0;
     force_general(&own, f, sim, t, h);
 }
 /* the form that covers fluids (in small builds with corrected gradients); corrected gradients; scenes with solids */
@@ -308,27 +318,38 @@ SPH_APART void force_fluid(const sph_choice *c, const sph_factors *f, const sph_
     own.loses = SPH_SMALL && own.loses;
     own.gradient = SPH_SMALL ? own.gradient : 0;
     own.energy = SPH_SMALL && own.energy;
+    own.varies = SPH_SMALL && own.varies;
     force_general(&own, f, sim, t, h);
 }
 /* whose energies go by their equation */
 SPH_APART void force_energy(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
-    own.solid = own.total = own.hat = own.repulsion = own.loses = own.form = own.hourglass = 0;
+    own.solid = own.total = own.hat = own.repulsion = own.loses = own.form = own.hourglass = own.varies = 0;
     own.energy = 1;
+    force_general(&own, f, sim, t, h);
+}
+/* and whose smoothing lengths go by their density */
+SPH_APART void force_varying(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
+{
+    sph_choice own = *c;
+    own.solid = own.total = own.hat = own.repulsion = own.form = own.hourglass = 0;
+    own.gradient = own.diffusion = own.xsph = own.shear = own.shifting = own.summed = own.edge = 0;
+    own.energy = own.varies = 1;
     force_general(&own, f, sim, t, h);
 }
 SPH_APART void force_corrected(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = own.total = own.hat = own.repulsion = own.loses = own.energy = own.form = own.hourglass = 0;
+    own.varies = 0;
     force_general(&own, f, sim, t, h);
 }
 SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_choice own = *c;
     own.solid = true;
-    own.gradient = own.shear = own.shifting = own.energy = 0; /* of fluids alone */
+    own.gradient = own.shear = own.shifting = own.energy = own.varies = 0; /* of fluids alone */
     own.loses = SPH_SMALL && own.loses;
     own.total = SPH_HAS_TOTAL && own.total;
     own.hat = SPH_HAS_HAT && own.hat;
@@ -581,10 +602,11 @@ static sph_choice choice_of(const sph_sim *sim, bool wall)
                         .part = (uint8_t)part,
                         .form = (uint8_t)form_of(c, forces),
                         .hourglass = forces && sph_resists_hourglass(c),
-                         .shifting = forces && sph_shifts(c),
+                         .shifting = (uint8_t)(forces && sph_shifts(c) ? 1 + c->shift_pairs : 0),
                          .shear = viscous && sph_shears(c),
                          .edge = forces && sph_replaces(c),
-                         .energy = sph_has_energy(c)};
+                         .energy = sph_has_energy(c),
+                         .varies = sph_varies_h(c)};
 }
 
 /* the fast paths of this pass, of tiles of matter and of ghosts, for all cells of a chunk */
@@ -628,6 +650,8 @@ static void force_tile_any(const sph_sim *sim, sph_thread *t, uint32_t homes, ui
             f = sph_pair_factors(sim, t, h, role == SPH_ROLE_GHOST);
         if (SPH_HAS_FORCE_WALLS && role == SPH_ROLE_FORCE_WALL)
             sph_boundary_force(sim, t, h);
+        else if (SPH_WITH_VARIABLE_H && !SPH_SMALL && c.varies)
+            force_varying(&c, f, sim, t, h);
         else if (SPH_WITH_BOOKS && !SPH_SMALL && c.loses)
             force_losing(&c, f, sim, t, h);
         else if (SPH_WITH_SOLID && c.solid)
@@ -663,7 +687,7 @@ static uint32_t columns_of(const sph_choice *c)
     return (SPH_HAS_LAYERED_WALLS && (sph_viscous(c->viscosity) || c->shear) ? 1u << SPH_COLUMN_mirror : 0) |
            (SPH_IS(c->diffusion, ANTUONO) ? 1u << SPH_COLUMN_density_gradient : 0) |
            (c->shear ? 1u << SPH_COLUMN_shear : 0) | (SPH_WITH_ENERGY && c->energy ? 1u << SPH_COLUMN_energy : 0) |
-           (c->hourglass ? 1u << SPH_COLUMN_deform : 0) |
+           (sph_varies(c) ? 1u << SPH_COLUMN_wide : 0) | (c->hourglass ? 1u << SPH_COLUMN_deform : 0) |
            (sph_stabilised(c) ? 1u << SPH_COLUMN_edge | 1u << SPH_COLUMN_drawn | 1u << SPH_COLUMN_means : 0) |
            (c->solid && forces ? 1u << SPH_COLUMN_stress : 0) | (c->total ? 1u << SPH_COLUMN_reference : 0) |
            (c->hat ? 1u << SPH_COLUMN_smoothed : 0) | (gradient ? 1u << SPH_COLUMN_gradient : 0);

@@ -53,7 +53,7 @@ static sph_status check_images(const sph_config *c, const sph_grid *s, uint32_t 
 
 sph_status sph_make_grid(const sph_config *c, sph_grid *s, sph_report *r)
 {
-    s->support = sph_kernel_support(c->kernel) * c->smoothing_length;
+    s->support = sph_kernel_support(c->kernel) * sph_largest_h(c);
     double cell = sph_is_total(c) ? s->support * c->max_stretch : s->support; /* at least so wide */
     double longest = 0;
     for (uint32_t k = 0; k < SPH_DIM; k++) {

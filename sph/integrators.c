@@ -262,7 +262,8 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
         MODULE(SPH_HAS_STABILISED, sph_pass_rows), MODULE(SPH_HAS_STABILISED, sph_pass_means),                     \
         MODULE(SPH_HAS_NORMALISED, sph_pass_normal), MODULE(SPH_HAS_HOURGLASS, sph_pass_bonds),                    \
         MODULE(SPH_WITH_ANTUONO, sph_pass_density_gradient),                                                       \
-        MODULE(SPH_WITH_SHEAR, sph_pass_shear), MODULE(SPH_HAS_HAT, sph_pass_smooth), &sph_pass_force
+        MODULE(SPH_WITH_SHEAR, sph_pass_shear), MODULE(SPH_HAS_HAT, sph_pass_smooth),                              \
+        MODULE(SPH_WITH_VARIABLE_H, sph_pass_smoothing_length), &sph_pass_force
 
 /* A density that is summed is of where particles are: Runge-Kutta, which moves them last, sums it once more. */
 #define SUMMED(pass) (SPH_WITH_SUMMATION ? (pass) : NULL)

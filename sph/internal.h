@@ -32,6 +32,11 @@ enum { JUMP_HELD = SPH_POWERS, JUMP_REMOVED, JUMP_RELEASED, JUMP_PUT_BACK, JUMP_
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
 /* a sum of squares above this counts as not finite: a float has room for a factor of 1e8 beyond */
 #define SPH_LIMIT_SQUARE ((sph_real)1e30)
+/* Strips of that many cells, one after the other: where no particle is in one or beside it, nothing is stored but where
+   slabs begin (sort.c). What is true of a strip: */
+#define SPH_STRIP 32u
+enum { SPH_PEOPLED = 1, SPH_STORED = 2 };
+#define SPH_STRIPS (SPH_WITH_SKIP_EMPTY && SPH_DIM > 1)
 #define SPH_CANDIDATE_CELLS (SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27)
 
 /* one particle set: constants that its particles share */
@@ -113,6 +118,7 @@ typedef struct sph_factors {
     sph_real value_slope;        /* forms of solids: the scale of W over that of its slope */
     sph_real edge[SPH_LEVELS];   /* stabilised: what S has between rows below a face */
     sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
+    sph_real apart;              /* shift_pairs: (W/W(dx))^4 of pairs that are moved apart is above it */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
     sph_real least_rho;          /* diffusion: of a neighbour, rho0/2 (tiles.c) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
@@ -169,7 +175,7 @@ struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
 /* room for the passes of the longest list that is in (integrators.c) */
-#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 64u : 48u)
+#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 72u : 48u)
 
 struct sph_sim {
     sph_config cfg;
@@ -352,6 +358,12 @@ SPH_INLINE bool sph_is_matched(const sph_config *c) { return sph_has_edges(c) &&
 SPH_INLINE bool sph_replaces(const sph_config *c) { return SPH_HAS_EDGES && c->edge >= SPH_EDGE_P; }
 SPH_INLINE bool sph_shears(const sph_config *c) { return SPH_WITH_SHEAR && c->shear != SPH_NO_SHEAR; }
 SPH_INLINE bool sph_has_energy(const sph_config *c) { return SPH_WITH_ENERGY && c->energy; }
+SPH_INLINE bool sph_varies_h(const sph_config *c) { return SPH_WITH_VARIABLE_H && sph_has_energy(c) && c->variable_h; }
+/* the largest smoothing length that a particle may have (m) */
+SPH_INLINE double sph_largest_h(const sph_config *c)
+{
+    return sph_varies_h(c) ? c->h_max * c->smoothing_length : c->smoothing_length;
+}
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
 SPH_INLINE bool sph_guards_gradient(const sph_config *c) { return SPH_IS(c->gradient, BONET_LOK) && c->gradient_guard; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
@@ -431,6 +443,9 @@ SPH_INLINE double sph_energy_sum(const sph_sim *sim, const sph_buffer *b, uint32
     const sph_energy e = sph_energy_of(sim, b, i);
     return e.kinetic + e.potential + e.internal + e.elastic + e.plastic;
 }
+/* smoothing_length.c: h over the configuration's, of a particle of a set with a density excess d, where it varies */
+#define sph_relative_h SPH_NAME(relative_h_)
+double sph_relative_h(const sph_sim *sim, const sph_set *set, double d);
 #define sph_hash_buffer SPH_NAME(hash_buffer_)
 uint64_t sph_hash_buffer(const sph_sim *sim, const sph_buffer *b, uint32_t n);
 
@@ -640,6 +655,29 @@ SPH_INLINE uint32_t sph_cell_of(const sph_sim *sim, const sph_pos *q)
     for (uint32_t k = SPH_DIM; k-- > 0;)
         c = c * sim->grid.ncell[k] + sph_cell_axis(sim, k, q[k]);
     return c;
+}
+
+/* the first of the cells c .. end - 1 that stands in a strip of which that much is true; end: none does */
+SPH_INLINE uint32_t sph_skip(const sph_sim *sim, uint32_t c, uint32_t end, uint8_t what)
+{
+    if (!SPH_STRIPS || c >= end || sim->strip[c / SPH_STRIP] & what)
+        return c;
+    uint32_t s = c / SPH_STRIP;
+    const uint32_t last = (end - 1) / SPH_STRIP;
+    for (uint64_t eight; s <= last; s += 8) {
+        memcpy(&eight, sim->strip + s, sizeof eight);
+        if (eight & what * (uint64_t)0x0101010101010101)
+            break;
+    }
+    while (s <= last && !(sim->strip[s] & what))
+        s++;
+    return s <= last ? s * SPH_STRIP : end;
+}
+/* the end of a cell's strip, or of the cells that are asked for */
+SPH_INLINE uint32_t sph_strip_end(uint32_t c, uint32_t end)
+{
+    const uint32_t e = (c / SPH_STRIP + 1) * SPH_STRIP;
+    return SPH_STRIPS && e < end ? e : end;
 }
 
 #endif

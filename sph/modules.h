@@ -12,6 +12,7 @@
 
 #define SPH_KNOBS(X)                                                                                       \
     X(FAST_PATHS, 1) /* inner loops compiled apart for common choices: same bits, more speed, more code */ \
+    X(SKIP_EMPTY, SPH_DIM > 1) /* room without particles is passed over: 1 byte for 32 cells */            \
     X(CUBIC, 1) /* smoothing kernels */                                                                    \
     X(QUARTIC, 1)                                                                                          \
     X(QUINTIC, 1)                                                                                          \
@@ -43,6 +44,7 @@
     X(RENORMALISED, 1)                                                                                     \
     X(SHEAR, 1) /* viscous stress of fluids: nested gradients, large eddies */                             \
     X(ENERGY, 1) /* energy equation, ideal gas */                                                          \
+    X(VARIABLE_H, SPH_WITH_ENERGY) /* a smoothing length of each particle */                               \
     X(PREDICTOR_CORRECTOR, 1) /* integrators */                                                            \
     X(KICK_DRIFT_KICK, 1)                                                                                  \
     X(LEAP_FROG, 1)                                                                                        \

@@ -26,6 +26,7 @@
 #include "evening.h"
 #include "edges.h"
 #include "shifting.h"
+#include "smoothing_length.h"
 #include "sponge.h"
 /* larger magnitudes are refused: squares of them must stay finite in a float's range */
 #define SPH_HUGE 1e30f
@@ -168,6 +169,7 @@
     SPH_DAMPER_OPTIONS(O, P, A)                                                                                       \
     SPH_DAMPING_OPTIONS(O, P, A)                                                                                      \
     SPH_EVENING_OPTIONS(O, P, A)                                                                                      \
+    SPH_VARIABLE_H_OPTIONS(O, P, A)                                                                                   \
     SPH_EXTRA_OPTIONS(O, P, A)
 
 /* members of sph_config */

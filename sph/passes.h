@@ -30,6 +30,7 @@
 /* density_gradient.c */
 #define sph_pass_density_gradient SPH_NAME(pass_density_gradient_)
 extern const sph_pass sph_pass_density_gradient;
+/* smoothing_length.c: smoothing_length.h */
 /* stabilised.c, normalised.c, hourglass.c */
 #define sph_pass_edge SPH_NAME(pass_edge_)
 #define sph_pass_rows SPH_NAME(pass_rows_)

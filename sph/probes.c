@@ -8,11 +8,17 @@
 SPH_OBJECT(probes)
 
 #if SPH_WITH_PROBES
+/* smoothing length of a body (m) */
+static double own_h(const sph_sim *sim, const sph_buffer *b, uint32_t i)
+{
+    const double h = sim->cfg.smoothing_length;
+    return sph_varies_h(&sim->cfg) ? h * sph_relative_h(sim, &sim->set[b->set[0][i]], (double)b->rho[0][i]) : h;
+}
 /* W(r) in double for one particle */
-static double kernel_w(const sph_sim *sim, double r)
+static double kernel_w(const sph_sim *sim, double h, double r)
 {
     double w, dw;
-    sph_kernel_value(sim->cfg.kernel, r, sim->cfg.smoothing_length, &w, &dw);
+    sph_kernel_value(sim->cfg.kernel, r, h, &w, &dw);
     return w;
 }
 
@@ -86,7 +92,7 @@ static void probe_view(const sph_sim *sim, const double *x, const view *seen, sp
             continue;
         const sph_set *s = &sim->set[b->set[0][i]];
         double e = (double)b->rho[0][i], rho = s->rho0 * (1 + e);
-        double w = s->mass / rho * kernel_w(sim, __builtin_sqrt(r2));
+        double w = s->mass / rho * kernel_w(sim, own_h(sim, b, i), __builtin_sqrt(r2));
         o->cover += w;
         o->rho += w * rho;
         o->p += w * sph_pressure_at(sim, b, i);
@@ -249,13 +255,16 @@ sph_status sph_surface(const sph_sim *sim, const double *bed, uint32_t axis, dou
 
 /* Integral of W along a line that passes a particle at distance sqrt(r2) (1/m^(DIM-1)): by the trapezoidal rule, which
    is good for what is even at one end and flat at the other. */
-static double chord(const sph_sim *sim, double r2)
+static double chord(const sph_sim *sim, double h, double r2)
 {
     enum { POINTS = 24 };
-    const double half = __builtin_sqrt(sim->grid.support * sim->grid.support - r2), step = half / POINTS;
-    double sum = 0.5 * kernel_w(sim, __builtin_sqrt(r2));
+    const double reach = sph_kernel_support(sim->cfg.kernel) * h;
+    if (!(r2 < reach * reach))
+        return 0;
+    const double half = __builtin_sqrt(reach * reach - r2), step = half / POINTS;
+    double sum = 0.5 * kernel_w(sim, h, __builtin_sqrt(r2));
     for (int i = 1; i < POINTS; i++)
-        sum += kernel_w(sim, __builtin_sqrt(r2 + step * i * (step * i)));
+        sum += kernel_w(sim, h, __builtin_sqrt(r2 + step * i * (step * i)));
     return 2 * step * sum;
 }
 
@@ -273,7 +282,7 @@ sph_status sph_depth(const sph_sim *sim, const double *x, uint32_t axis, double 
             if (!(r2 < reach2) || !sph_body_at(sim, b, i))
                 continue;
             const sph_set *s = &sim->set[b->set[0][i]];
-            sum += s->mass / (s->rho0 * (1 + (double)b->rho[0][i])) * chord(sim, r2);
+            sum += s->mass / (s->rho0 * (1 + (double)b->rho[0][i])) * chord(sim, own_h(sim, b, i), r2);
         }
     *depth = sum;
     return SPH_OK;

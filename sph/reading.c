@@ -31,6 +31,10 @@ sph_status sph_get(const sph_sim *sim, uint32_t i, sph_particle *out)
         out->p = sph_pressure_at(sim, b, i);
         out->energy = (double)b->energy[0][i];
     }
+    if (SPH_WITH_VARIABLE_H)
+        out->h = sim->cfg.smoothing_length;
+    if (sph_varies_h(&sim->cfg) && sph_is_matter(s))
+        out->h *= sph_relative_h(sim, s, (double)b->rho[0][i]);
     for (int k = 0; SPH_WITH_SOLID && k < 3; k++)
         out->stress[k] = -out->p;
     if (SPH_WITH_SOLID && sph_is_solid(s)) {

@@ -35,6 +35,12 @@ static sph_status load_program(sph_sim *sim, const sph_integrator *g)
     return SPH_OK;
 }
 
+/* cells of a chunk of a sweep; where most cells must be empty, more of them */
+static uint32_t sweep_cells_of(const sph_sim *sim)
+{
+    return SPH_STRIPS && sim->grid.cells > sim->cfg.max_particles ? 8 * SPH_SWEEP_CHUNK : SPH_SWEEP_CHUNK;
+}
+
 /* begins the computation of the first forces; chunk_cells: how finely its sweeps and sorts can be sliced */
 static sph_status begin_prime(sph_sim *sim, uint32_t chunk_cells)
 {
@@ -226,7 +232,7 @@ sph_status sph_ready(sph_sim *sim)
         return sph_error(sim, SPH_BAD_STATE, "sph_ready", "between steps", 0, SPH_NO_PARTICLE);
     if (sim->now.primed)
         return SPH_OK;
-    sph_status st = begin_prime(sim, SPH_SWEEP_CHUNK);
+    sph_status st = begin_prime(sim, sweep_cells_of(sim));
     return st ? st : run_program(sim, 0);
 }
 
@@ -234,7 +240,7 @@ static sph_status advance(sph_sim *sim, double t_end, uint64_t budget)
 {
     sph_status st = SPH_OK;
     if (!sim->begun) {
-        const uint32_t cells = budget ? SPH_SLICE_CHUNK : SPH_SWEEP_CHUNK;
+        const uint32_t cells = budget ? SPH_SLICE_CHUNK : sweep_cells_of(sim);
         sim->t_end = t_end;
         st = sim->now.primed ? begin_step(sim, cells) : begin_prime(sim, cells);
         if (st)

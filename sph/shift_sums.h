@@ -3,6 +3,7 @@
    of a rho that is at least rho0/2: tiles.c), over fluid, walls and images behind faces:
 
      SHIFT    sum V_j [1 + 0.2 (W/W(dx))^4] g x_ij    the slope of disorder; the bracket keeps pairs from clumping
+     NEARER   sum V_j [(W/W(dx))^4 - (W(0.8 dx)/W(dx))^4] g x_ij, where that bracket is above 0 (shift_pairs)
      COVER    sum V_j W                                1 inside the fluid, less where a part of the support is empty
      SPREAD   sum V_j g x_ij (x) x_ij                  minus the unit tensor inside; at a surface one eigenvalue falls
 
@@ -25,6 +26,8 @@ SPH_INLINE void sph_shift_sums(const sph_choice *c, const sph_factors *f, const 
     for (int k = 0; k < SPH_DIM; k++) {
         const vreal slope = g * p->dx[k];
         s[SUM_SHIFT + k] = s[SUM_SHIFT + k] + slope * more;
+        if (c->shifting > 1)
+            s[SUM_NEARER + k] = s[SUM_NEARER + k] + slope * v_pos(near2 * near2 - f->apart);
         SPH_UNROLL
         for (int l = k; l < SPH_DIM; l++)
             s[SUM_SPREAD + sph_sym[k][l]] = s[SUM_SPREAD + sph_sym[k][l]] + slope * p->dx[l];

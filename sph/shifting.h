@@ -7,7 +7,11 @@
 /* the option; how a line is made: options.h */
 #define SPH_SHIFTING_OPTIONS(O, P, A)                                                                                 \
     P(A, shifting, REAL, 0, 0, 4, SPH_WITH_SHIFTING, "0 .. 4, and 0 in scenes with solids", FIXED, "-",               \
-      "strength of particle shifting; 0: off, 0.5: usual", "shifting", "-", 0, 4, OWN)
+      "strength of particle shifting; 0: off, 0.5: usual", "shifting", "-", 0, 4, OWN)                                \
+    P(A, shift_pairs, BOOL, false, 0, 1, SPH_WITH_SHIFTING, "false or true, and false without shifting", FIXED, "-",  \
+      "near a surface shift pairs closer than 0.8 spacings, too: no yes", "shift_pairs", "-", 0, 1, USUAL)
+
+#define SPH_SHIFT_APART 0.8 /* spacings: near a surface closer pairs are moved apart (shift_pairs) */
 
 #ifdef SPH_H /* the tool reads the list of options without the kernel */
 struct sph_config;

@@ -6,8 +6,13 @@
    slabs or next to them, because a particle moves less than a cell in a step, and writes only its own cells: so
    ranges run at once and in any order. (cell, id) is a total order, so neither ranges nor threads show in the result.
 
+   Only those strips of the table are cleared and counted in that a particle is in, and those that an end of a range
+   cuts, so that two ranges share it; and only those are filled from which a sweep reads: these and those beside them.
+   In all others nothing is right but the starts of slabs, which the next sort reads. In a step that is done in slices
+   every strip is counted in and filled: to choose them is one pass without chunks.
+
    dst.id holds each particle's index in src until the stage's last pass writes the id itself. Costs the table of
-   cells (4 bytes each) and of slabs. */
+   cells (4 bytes each), of strips and of slabs. */
 #include "motion.h"
 #include "passes.h"
 #include "arithmetic.h"
@@ -23,11 +28,15 @@ typedef struct range {
     uint32_t own_from, own_to, known; /* known: those before it are in the table */
 } range;
 
+SPH_INLINE uint32_t first_slab(const sph_sim *sim, uint32_t r)
+{
+    return (uint32_t)((uint64_t)sim->grid.slabs * r / sim->ranges);
+}
 static range make_range(const sph_sim *sim, uint32_t r)
 {
     range g;
-    g.lo = (uint32_t)((uint64_t)sim->grid.slabs * r / sim->ranges);
-    g.hi = (uint32_t)((uint64_t)sim->grid.slabs * (r + 1) / sim->ranges);
+    g.lo = first_slab(sim, r);
+    g.hi = first_slab(sim, r + 1);
     g.pieces = 1;
     if (SPH_WITH_FLOW)
         g.known = sim->src_count;
@@ -122,14 +131,38 @@ static void block_cells(sph_sim *sim, const range *g, uint32_t i, uint32_t n, bo
     }
 }
 
+/* ---- counting ---- */
+
+/* whether strips are chosen, or all are filled */
+SPH_INLINE bool chooses(const sph_sim *sim) { return SPH_STRIPS && sim->chunk_cells != SPH_SLICE_CHUNK; }
+
+/* counts of the cells c0 .. c1 - 1 of a range at its beginning: of all, or of the strips that its ends cut */
+SPH_INLINE void clear_counts(uint32_t *count, uint32_t c0, uint32_t c1, bool all)
+{
+    const uint32_t e = all ? c1 : sph_strip_end(c0, c1), s = c1 / SPH_STRIP * SPH_STRIP;
+    memset(count + c0, 0, (size_t)(e - c0) * sizeof *count);
+    if (!all && s > c0)
+        memset(count + s, 0, (size_t)(c1 - s) * sizeof *count);
+}
+
+/* a particle is in a strip, perhaps the first; those that ends of ranges cut are open; c1: where the range ends */
+static void open_strip(sph_sim *sim, uint32_t strip, uint32_t c1)
+{
+    const uint32_t c = strip * SPH_STRIP;
+    if (sim->strip[strip])
+        return;
+    sim->strip[strip] = SPH_PEOPLED;
+    memset(sim->cell + 1 + c, 0, (size_t)(sph_strip_end(c, c1) - c) * sizeof *sim->cell);
+}
+
 static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
 {
     const sph_move a = sph_stage_move(sim);
     const range g = make_range(sim, r);
     const uint32_t c0 = g.lo * sim->grid.slab_cells, c1 = g.hi * sim->grid.slab_cells;
-    uint32_t total = 0, slab = g.lo;
+    uint32_t total = 0, slab = g.lo, strip = NO_CELL;
     uint32_t *const count = sim->cell + 1, *const cell = t->block.to;
-    memset(count + c0, 0, (size_t)(c1 - c0) * sizeof *count);
+    clear_counts(count, c0, c1, !chooses(sim));
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += SPH_BLOCK) {
             const uint32_t n = g.to[p] - i < SPH_BLOCK ? g.to[p] - i : SPH_BLOCK;
@@ -137,6 +170,8 @@ static void count_range(sph_sim *sim, uint32_t r, sph_thread *t)
             block_cells(sim, &g, i, n, fine, &slab, t);
             for (uint32_t j = 0; j < n; j++)
                 if (cell[j] - c0 < c1 - c0) {
+                    if (SPH_STRIPS && cell[j] / SPH_STRIP != strip)
+                        open_strip(sim, strip = cell[j] / SPH_STRIP, c1);
                     count[cell[j]]++;
                     total++;
                 }
@@ -202,8 +237,8 @@ SPH_INLINE void set_eight(uint32_t *cell, uint32_t value)
         memcpy(cell + k, &two, sizeof two);
 }
 
-/* counts of n cells become starts, from `first` on; filling turns them into the next cell's start */
-static void starts_of_counts(uint32_t *cell, uint32_t n, uint32_t first)
+/* counts of n cells become starts, from `first` on; filling turns them into the next cell's start. Returns the last. */
+SPH_INLINE uint32_t starts_of_counts(uint32_t *cell, uint32_t n, uint32_t first)
 {
     for (uint32_t c = 0; c < n; c++) {
         for (; !SPH_SMALL && c + 8 < n && are_eight_zero(cell + c); c += 8)
@@ -212,6 +247,45 @@ static void starts_of_counts(uint32_t *cell, uint32_t n, uint32_t first)
         cell[c] = first;
         first += count;
     }
+    return first;
+}
+
+/* those of a range's cells c0 .. c1 - 1; in strips that are not stored only where slabs begin, and what lies behind */
+static void starts_of_range(const sph_sim *sim, uint32_t c0, uint32_t c1, uint32_t first)
+{
+    uint32_t *const cell = sim->cell, slab = sim->grid.slab_cells, c = c0;
+    do {
+        const uint32_t s = sph_skip(sim, c, c1, SPH_STORED), e = sph_strip_end(s, c1);
+        if (SPH_STRIPS && s > c) {
+            for (uint32_t begin = (c / slab + 1) * slab; begin < s; begin += slab)
+                cell[begin] = first;
+            cell[s] = first;
+        }
+        if (!SPH_STRIPS || (s < c1 && sim->strip[s / SPH_STRIP] & SPH_PEOPLED))
+            first = starts_of_counts(cell + 1 + s, e - s, first);
+        for (uint32_t k = s; SPH_STRIPS && k < e && !(sim->strip[s / SPH_STRIP] & SPH_PEOPLED); k++)
+            cell[k + 1] = first;
+        c = e;
+    } while (SPH_STRIPS && c < c1);
+}
+
+/* puts the particles of the cells c .. e - 1, whose first is `start`, in order; returns whose first the next is */
+SPH_INLINE uint32_t order_cells(const sph_sim *sim, const uint32_t *cell, uint32_t c, uint32_t e, uint32_t start,
+                                sph_thread *t)
+{
+    uint32_t widest = 0;
+    for (; c < e; c++) {
+        while (!SPH_SMALL && !SPH_STRIPS && c + 64 < e && cell[c + 64] == start)
+            c += 64; /* starts never fall: so many empty cells */
+        while (!SPH_SMALL && c + 8 < e && cell[c + 8] == start)
+            c += 8;
+        const uint32_t end = cell[c + 1];
+        widest = end - start > widest ? end - start : widest;
+        order_cell(sim, start, end);
+        start = end;
+    }
+    t->widest = widest > t->widest ? widest : t->widest;
+    return start;
 }
 
 static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
@@ -223,7 +297,7 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
     uint32_t *const cell = sim->cell, run = sim->range_count[r];
     const uint8_t *set = sim->buf[sim->src].set[0];
     uint32_t *const at = t->block.to;
-    starts_of_counts(cell + 1 + c0, c1 - c0, run);
+    starts_of_range(sim, c0, c1, run);
     for (uint32_t p = 0; p < g.pieces; p++)
         for (uint32_t i = g.from[p]; i < g.to[p]; i += SPH_BLOCK) {
             const uint32_t n = g.to[p] - i < SPH_BLOCK ? g.to[p] - i : SPH_BLOCK;
@@ -248,19 +322,75 @@ static void scatter_range(sph_sim *sim, uint32_t r, sph_thread *t)
                 j = e;
             }
         }
-    uint32_t start = run, widest = 0;
-    for (uint32_t c = c0; c < c1; c++) {
-        while (!SPH_SMALL && c + 64 < c1 && cell[c + 64] == start)
-            c += 64; /* starts never fall: so many empty cells */
-        while (!SPH_SMALL && c + 8 < c1 && cell[c + 8] == start)
-            c += 8;
-        uint32_t end = cell[c + 1];
-        widest = end - start > widest ? end - start : widest;
-        order_cell(sim, start, end);
-        start = end;
-    }
+    uint32_t c = c0;
+    do {
+        const uint32_t s = sph_skip(sim, c, c1, SPH_PEOPLED);
+        c = sph_strip_end(s, c1);
+        run = order_cells(sim, cell, s, c, run, t);
+    } while (SPH_STRIPS && c < c1);
     t->work += c1 - c0;
-    t->widest = widest > t->widest ? widest : t->widest;
+}
+
+/* ---- strips ---- */
+
+/* strips that ends of ranges cut were counted in whether somebody is there or not */
+static void close_empty_strips(sph_sim *sim)
+{
+    for (uint32_t r = 0; r < sim->ranges; r++) {
+        const uint32_t s = first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP, c = s * SPH_STRIP;
+        const uint32_t *const count = sim->cell + 1 + c, n = sph_strip_end(c, sim->grid.cells) - c;
+        uint32_t any = 0;
+        for (uint32_t k = 0; k < n; k++)
+            any |= count[k];
+        sim->strip[s] = any ? SPH_PEOPLED : 0;
+    }
+}
+
+/* how far it is along axis k, in cells of the table, to what a cell has beside it, round the domain where that is
+   periodic; along the first axis neighbours follow each other */
+static uint32_t shifts_along(const sph_sim *sim, uint32_t k, int64_t *shift)
+{
+    int64_t stride = 1;
+    uint32_t n = 1;
+    for (uint32_t a = 0; a < k; a++)
+        stride *= sim->grid.ncell[a];
+    shift[0] = 0;
+    for (int64_t way = -1; way <= 1; way += 2) {
+        if (k > 0)
+            shift[n++] = way * stride;
+        if (SPH_IS(sim->cfg.face[k][0], PERIODIC))
+            shift[n++] = way * stride * ((int64_t)sim->grid.ncell[k] - 1);
+    }
+    return n;
+}
+
+/* a sweep reads where the cells c - 1 .. e begin and end; those that do not exist do no harm */
+static void store_strips(sph_sim *sim, int64_t c, int64_t e)
+{
+    const int64_t most = (int64_t)sim->grid.cells - 1;
+    for (int64_t s = (c < 1 ? 0 : c - 1) / SPH_STRIP; s <= (e < most ? e : most) / SPH_STRIP; s++)
+        sim->strip[s] |= SPH_STORED;
+}
+
+/* all that sweeps read, of strips with particles and beside them, is stored */
+static void choose_strips(sph_sim *sim)
+{
+    const uint32_t cells = sim->grid.cells;
+    int64_t shift[3][5] = {{0}};
+    uint32_t n[3] = {1, 1, 1};
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        n[k] = shifts_along(sim, k, shift[k]);
+    close_empty_strips(sim);
+    for (uint32_t c = sph_skip(sim, 0, cells, SPH_PEOPLED); c < cells; c = sph_skip(sim, c, cells, SPH_PEOPLED)) {
+        const uint32_t e = sph_strip_end(c, cells);
+        for (uint32_t x = 0; x < n[0]; x++)
+            for (uint32_t y = 0; y < n[1]; y++)
+                for (uint32_t z = 0; z < n[2]; z++) {
+                    const int64_t to = shift[0][x] + shift[1][y] + shift[2][z];
+                    store_strips(sim, c + to, e + to);
+                }
+        c = e;
+    }
 }
 
 static uint32_t range_chunks(const sph_sim *sim) { return sim->ranges; }
@@ -276,6 +406,8 @@ static sph_status count_end(sph_sim *sim)
     }
     sim->cell[0] = 0;
     sim->next.count = sum;
+    if (chooses(sim))
+        choose_strips(sim);
     SPH_ASSERT(sum <= sim->cfg.max_particles);
     return SPH_OK;
 }
@@ -307,5 +439,9 @@ void sph_begin_sort(sph_sim *sim, uint32_t src, uint32_t dst, uint32_t count, bo
         sim->ranges = r < 1 ? 1 : r > SPH_MAX_RANGES ? SPH_MAX_RANGES : r;
     }
     sim->table_valid = false; /* from here on cell[] is being rebuilt */
+    if (SPH_STRIPS)
+        memset(sim->strip, chooses(sim) ? 0 : SPH_PEOPLED | SPH_STORED, sim->grid.cells / SPH_STRIP + 9);
+    for (uint32_t r = 0; chooses(sim) && r < sim->ranges; r++)
+        sim->strip[first_slab(sim, r) * sim->grid.slab_cells / SPH_STRIP] = SPH_PEOPLED;
     SPH_VALIDATE(sph_poison_stage(sim));
 }

@@ -140,6 +140,12 @@ enum { SPH_TAIT, SPH_TAIT_GRAY, SPH_LINEAR, SPH_ISOTHERMAL, SPH_IDEAL_GAS, SPH_E
    IDEAL_GAS there are no GHOST and ADAMI walls, whose pressure must follow from their density. Beside a fluid of
    another density take the WEAK scheme. A density that is summed: a gas alone, not in KICK_DRIFT_KICK, LEAP_FROG. */
 
+/* A smoothing length of each particle (option `variable_h`; smoothing_length.c): h_i = eta (m_i/rho_i)^(1/DIM), eta =
+   smoothing_length/spacing, between h_min and h_max times smoothing_length (Powell 2012 eq 1.21). A pair has the mean
+   (h_i + h_j)/2 (Wickramarachchi 2009 eq 3.46): momentum, angular momentum and energy stay as with one h, entropy too.
+   For a gas (eos IDEAL_GAS) whose density goes by plain continuity. Cells are of h_max; steps go by the smallest h/c.
+   Probes see each particle with its own h. SPH_ARENA_BYTES: or in SPH_USE_VARIABLE_H, with cells of h_max. */
+
 /* Forms of a solid's equations; NO_SOLID: the scene has fluids only. With T = -sigma/rho^2, K_ij the vector between two
    particles, g = (dW/dr)/r at |K|, and v_ij = v_i - v_j:
    UPDATED    dv = sum m_j (-T_i - T_j) . K g,  velocity gradient L = -(1/rho_i) sum m_j v_ij (x) K g, K = x_ij
@@ -298,7 +304,8 @@ enum {
    as alpha 0.005. Deep inside density goes slowly to where the particles' volumes fill space, so that a tank does not
    swell. Momentum stays, angular momentum does not; what is taken of potential and internal energy is `shifted` in
    sph_totals, with or without books (where density is summed, of the potential energy only). Not in scenes with
-   solids. SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. */
+   solids. SPH_ARENA_BYTES: or in SPH_USE_SHIFTING. With shift_pairs particles near a surface, which are not shifted
+   else, are moved off those that are closer than 0.8 dx: keeps rows apart that the flow squeezes there. */
 
 /* Acoustic damper, `damper` its theta, 0: off: in the momentum equation and in what Adami's walls see the pressure is
    p + theta h c0 d(rho)/dt, at least 0 with the pressure floor: a bulk viscosity theta h c0, which sound feels and flow
@@ -401,6 +408,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_ENERGY 32768u /* the energy equation */
 #define SPH_USE_EDGES 65536u /* edges that let waves out, with a matched layer or without */
 #define SPH_USE_FORMS 131072u /* SPH_STABILISED, SPH_NORMALISED, SPH_NORMALISED_CORRECTED, or hourglass */
+#define SPH_USE_VARIABLE_H 1048576u /* a smoothing length of each particle */
 #define SPH_USE_ANTUONO 8388608u /* density diffusion after Antuono */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
@@ -422,6 +430,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_ANTUONO) ? SPH_DIM * SPH_REAL_ : 0u) +                                                 \
      (((use)&SPH_USE_ENERGY) ? 2u * SPH_REAL_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +             \
      (((use)&SPH_USE_FORMS) ? (SPH_DIM * SPH_DIM + SPH_DIM + 2u) * SPH_REAL_ : 0u) +                        \
+     (((use)&SPH_USE_VARIABLE_H) ? SPH_REAL_ : 0u) +                                                        \
      (((use)&SPH_USE_CORRECTED) ? SPH_DIM * SPH_DIM * SPH_REAL_ : 0u) + (((use)&SPH_USE_DAMAGE) ? 4u : 0u) + \
      (((use)&SPH_USE_DAMPER) ? SPH_REAL_ : 0u) + (((use)&SPH_USE_FLOW) ? 2u : 0u) +                         \
      (((use)&SPH_USE_EDGES) ? SPH_EDGE_BYTES_ : 0u) +                                                       \
@@ -434,7 +443,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 /* sums of a velocity gradient, or of shifting */
 #define SPH_TENSOR_SUMS_                                                                                    \
     SPH_MAX_(SPH_WITH_SOLID ? SPH_DIM * SPH_DIM : 0u,                                                       \
-             SPH_WITH_SHIFTING ? SPH_DIM + 1u + SPH_DIM * (SPH_DIM + 1u) / 2u : 0u)
+             SPH_WITH_SHIFTING ? 2u * SPH_DIM + 1u + SPH_DIM * (SPH_DIM + 1u) / 2u : 0u)
 #define SPH_SCRATCH_BYTES /* a thread */                                                                    \
     (((SPH_DIM == 1 ? 12288u : SPH_DIM == 2 ? 26624u : 86016u) +                                            \
       (SPH_TENSOR_SUMS_ + (SPH_WITH_ENERGY ? 1u : 0u)) * 512u) * (SPH_DOUBLE ? 2u : 1u))
@@ -454,9 +463,11 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_SHEAR) ? (size_t)(threads) * SPH_SHEAR_SCRATCH_BYTES : 0u) +                            \
      (((use)&SPH_USE_ANTUONO) ? (size_t)(threads) * SPH_ANTUONO_SCRATCH_BYTES : 0u) +                        \
      (((use)&SPH_USE_ENERGY) ? (size_t)(threads) * SPH_ENERGY_SCRATCH_BYTES : 0u) +                          \
+     (((use)&SPH_USE_VARIABLE_H) ? (size_t)(threads) * SPH_ENERGY_SCRATCH_BYTES : 0u) + /* as large */       \
      (((use)&SPH_USE_FORMS) ? (size_t)(threads) * SPH_FORMS_SCRATCH_BYTES : 0u) +                            \
      (((use)&SPH_USE_FLOW) ? 2048u : 0u) +                                                                  \
      ((size_t)(particles) + 48u) * SPH_PARTICLE_BYTES(use) + ((size_t)(cells) + 64u) * 4u +                 \
+     (size_t)(cells) / 32u + 64u + /* strips */                                                             \
      ((size_t)(particles) / 64u + (size_t)(cells) / 8u + 64u) *                                             \
          (((use) & (SPH_USE_BOOKS | SPH_USE_SHIFTING | SPH_USE_DAMPER | SPH_USE_EDGES)) ? 64u : 0u) +       \
      (((use)&SPH_USE_EDGES) ? 8192u : 0u))
@@ -894,6 +905,7 @@ typedef struct sph_particle {
                                                  is -p I; 0 where SPH_WITH_SOLID is off */
     double plastic, damage;                   /* equivalent plastic strain; D, 0 .. 1 */
     double energy;                            /* u of the energy equation, J/kg; 0 where that is off */
+    double h;                                 /* smoothing length, m; 0 where SPH_WITH_VARIABLE_H is off */
 } sph_particle;
 #define sph_count SPH_NAME(count)
 uint32_t sph_count(const sph_sim *sim); /* particles in the simulation, walls included */

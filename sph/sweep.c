@@ -411,11 +411,39 @@ static uint32_t end_of_chunk(const sph_sim *sim, uint32_t cell)
 }
 bool sph_is_empty_chunk(const sph_sim *sim, uint32_t chunk, sph_thread *t)
 {
-    const uint32_t cell = chunk * sim->chunk_cells;
-    if (sim->cell[cell] != sim->cell[end_of_chunk(sim, cell)])
+    const uint32_t cell = chunk * sim->chunk_cells, end = end_of_chunk(sim, cell);
+    const uint32_t from = sph_skip(sim, cell, end, SPH_PEOPLED);
+    /* somebody is in every such strip, but not in every cell of a slice */
+    if (from < end && (sph_strip_end(from, end) < end || sim->cell[from] != sim->cell[end]))
         return false;
-    t->work += sim->chunk_cells;
+    t->work += end - cell;
     return true;
+}
+
+#if SPH_STRIPS
+#define SWEEP SPH_APART
+#else
+#define SWEEP static
+#endif
+/* the cells cell .. last - 1, where all starts are known */
+SWEEP void sweep_cells(filling *f, uint32_t cell, uint32_t last)
+{
+    const sph_sim *const sim = f->sim;
+    uint32_t c[3] = {0}, q = cell;
+    for (uint32_t k = 0; k < SPH_DIM; k++) {
+        c[k] = q % sim->grid.ncell[k];
+        q /= sim->grid.ncell[k];
+    }
+    for (; cell < last; cell++) {
+        while (cell + 8 < last && c[0] + 8 < sim->grid.ncell[0] && sim->cell[cell] == sim->cell[cell + 8]) {
+            cell += 8; /* eight empty cells */
+            c[0] += 8;
+        }
+        if (sim->cell[cell] != sim->cell[cell + 1])
+            sweep_cell(f, cell, c);
+        for (uint32_t k = 0; k < SPH_DIM && ++c[k] == sim->grid.ncell[k]; k++)
+            c[k] = k + 1 < SPH_DIM ? 0 : c[k];
+    }
 }
 
 void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_thread *t)
@@ -431,21 +459,12 @@ void sph_sweep_chunk(sph_sim *sim, const sph_sweep *w, uint32_t chunk, sph_threa
     f.homes = 0;
     SPH_ASSERT(w->sums >> SPH_SUMS == 0 && w->columns >> SPH_COLUMN_COUNT == 0);
     uint64_t before = t->pairs;
-    uint32_t cell = chunk * sim->chunk_cells, c[3] = {0}, q = cell;
-    const uint32_t last = end_of_chunk(sim, cell);
-    for (uint32_t k = 0; k < SPH_DIM; k++) {
-        c[k] = q % sim->grid.ncell[k];
-        q /= sim->grid.ncell[k];
-    }
-    for (; cell < last; cell++) {
-        while (cell + 8 < last && c[0] + 8 < sim->grid.ncell[0] && sim->cell[cell] == sim->cell[cell + 8]) {
-            cell += 8; /* eight empty cells */
-            c[0] += 8;
-        }
-        if (sim->cell[cell] != sim->cell[cell + 1])
-            sweep_cell(&f, cell, c);
-        for (uint32_t k = 0; k < SPH_DIM && ++c[k] == sim->grid.ncell[k]; k++)
-            c[k] = k + 1 < SPH_DIM ? 0 : c[k];
-    }
-    t->work += t->pairs - before + sim->chunk_cells;
+    const uint32_t first = chunk * sim->chunk_cells, last = end_of_chunk(sim, first);
+    uint32_t cell = first;
+    do {
+        const uint32_t s = sph_skip(sim, cell, last, SPH_PEOPLED);
+        cell = sph_strip_end(s, last);
+        sweep_cells(&f, s, cell);
+    } while (SPH_STRIPS && cell < last);
+    t->work += t->pairs - before + (last - first);
 }

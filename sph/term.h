@@ -24,7 +24,7 @@
     X(BOUNDARY, 1)                                                                                                 \
     X(GRADIENT, SPH_MAX_(SPH_WITH_SOLID ? SPH_NL : 0, SPH_WITH_SHIFTING ? SPH_SHIFT_ROWS : 0))
 /* without solids that room is for shifting (shift_sums.h) */
-#define SPH_SHIFT_ROWS (SPH_DIM + 1 + SPH_NT)
+#define SPH_SHIFT_ROWS (SPH_DIM + 1 + SPH_NT + SPH_DIM) /* the last SPH_DIM: shift_pairs */
 enum {
 #define SPH_SUM_ENUM(name, rows) SUM_##name, SUM_##name##_LAST = SUM_##name + (rows) - 1,
     SPH_FORCE_SUMS(SPH_SUM_ENUM)
@@ -32,7 +32,8 @@ enum {
         SUM_ROWS,
     SUM_SHIFT = SUM_GRADIENT,
     SUM_COVER = SUM_SHIFT + SPH_DIM,
-    SUM_SPREAD = SUM_COVER + 1
+    SUM_SPREAD = SUM_COVER + 1,
+    SUM_NEARER = SUM_SPREAD + SPH_NT
 };
 #define SUM_MASK(name) SPH_SUM_MASK(SUM_##name, SUM_##name##_LAST + 1 - SUM_##name)
 _Static_assert(SUM_ROWS <= SPH_SUMS, "SPH_SUMS is too small");
@@ -51,13 +52,13 @@ typedef struct sph_choice {
     uint8_t summed;            /* density by summation */
     uint8_t part;              /* SPH_PART_... */
     uint8_t apart;             /* the factors are of one kind of pairs */
-    uint8_t shifting;          /* the sums of shifting */
+    uint8_t shifting;          /* the sums of shifting; 2: of close pairs, too */
     uint8_t shear;             /* a viscous stress */
     uint8_t energy;            /* the energy equation */
     uint8_t form;              /* solids: SPH_STABILISED, SPH_NORMALISED (or corrected), else 0 */
     uint8_t hourglass;         /* control of hourglass modes */
     uint8_t edge;              /* edges that want the velocity gradient with the forces */
-    uint8_t spare[1];
+    uint8_t varies;            /* a smoothing length of each particle */
 } sph_choice;
 _Static_assert(sizeof(sph_choice) == 24, "sph_choice is compared as three words (forces.c)");
 SPH_INLINE bool sph_takes_rates(const sph_choice *c) { return !SPH_HAS_RATES_FIRST || c->part != SPH_PART_FORCES; }
@@ -93,6 +94,7 @@ typedef struct sph_near {
     vreal r2, q, mg, vr;                         /* |x_ij|^2, |K|/h, m_j g, v_ij . x_ij */
     vreal vc, ve;                                /* v_ij . x_ij as continuity takes it; v_ij . ex */
     vreal rho, press, inv_rho;
+    vreal wide, narrow;                          /* h_ij/h and h/h_ij, where h varies (varying.h) */
     vreal inv;                                   /* 1/((r^2 + eta)(rho_i + rho_j)) */
     vreal force;                                 /* a_i -= force ex */
     vreal dw[SPH_DIM], fm, visc;                 /* what viscosity sees as v_ij; Morris: a_i += fm dw; Pi m_j g */

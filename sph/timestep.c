@@ -62,13 +62,15 @@ void sph_find_limits(const sph_sim *sim, double *l)
     if (c->dt > 0)
         return;
     l[SPH_LIMIT_COURANT] = sim->courant * h / (c0 + h * (double)sim->now.peaks.mu);
+    const double least = sph_varies_h(c) ? c->h_min * h : h;
+    const double thin = SPH_IS(c->viscosity, MORRIS) ? least : h; /* artificial: told as an |mu| (energy.c) */
     if (nu > 0)
-        l[SPH_LIMIT_VISCOUS] = c->viscous_factor * h * h / nu;
+        l[SPH_LIMIT_VISCOUS] = c->viscous_factor * thin * thin / nu;
     if (a > 0)
         l[SPH_LIMIT_FORCE] = c->force_factor * __builtin_sqrt(h / a);
     if (sph_diffusive(c->diffusion) && c->delta > 0)
         l[SPH_LIMIT_DIFFUSIVE] = sph_diffusion_factor(c) * h / (c->delta * nominal);
-    l[SPH_LIMIT_GRAVITY] = g > 0 ? c->gravity_factor * h / (c0 + __builtin_sqrt(g * h)) : 0;
+    l[SPH_LIMIT_GRAVITY] = g > 0 ? c->gravity_factor * least / (c0 + __builtin_sqrt(g * least)) : 0;
     l[SPH_LIMIT_CEILING] = c->dt_max;
 }
 

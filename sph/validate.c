@@ -26,11 +26,24 @@ static bool each_once(const sph_sim *sim)
     return once;
 }
 
+/* where a slab begins, from its first particle's cell on */
+static uint32_t slab_start(const sph_sim *sim, uint32_t slab)
+{
+    const uint32_t c = sph_skip(sim, slab * sim->grid.slab_cells, sim->grid.cells, SPH_PEOPLED);
+    return c < sim->grid.cells ? sim->cell[c] : sim->next.count;
+}
+
 bool sph_is_sorted(const sph_sim *sim)
 {
     const sph_buffer *b = &sim->buf[sim->dst];
     bool fine = sim->cell[0] == 0 && sim->cell[sim->grid.cells] == sim->next.count && each_once(sim);
-    for (uint32_t c = 0; fine && c < sim->grid.cells; c++)
+    uint32_t before = 0;
+    for (uint32_t c = 0; fine && c < sim->grid.cells; c++) {
+        c = sph_skip(sim, c, sim->grid.cells, SPH_PEOPLED);
+        if (c == sim->grid.cells)
+            break;
+        fine = sim->cell[c] == before;
+        before = sim->cell[c + 1];
         for (uint32_t i = sim->cell[c]; fine && i < sim->cell[c + 1]; i++) {
             sph_pos q[SPH_DIM];
             for (uint32_t k = 0; k < SPH_DIM; k++) {
@@ -40,7 +53,10 @@ bool sph_is_sorted(const sph_sim *sim)
             fine = fine && sph_cell_of(sim, q) == c;
             fine &= i == sim->cell[c] || sph_source_id(sim, i - 1) < sph_source_id(sim, i);
         }
-    return fine;
+    }
+    for (uint32_t s = 0; fine && s <= sim->grid.slabs; s++) /* by them the next sort finds its way */
+        fine = slab_start(sim, s) == sim->cell[s * sim->grid.slab_cells];
+    return fine && before == sim->next.count;
 }
 
 bool sph_is_tile_sound(const sph_tile *t)

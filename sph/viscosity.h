@@ -12,6 +12,7 @@
 #define SPH_VISCOSITY_H
 
 #include "mirror.h"
+#include "varying.h"
 
 /* what viscosity sees as v_ij where the candidates are ghosts: p->dw */
 SPH_INLINE void sph_mirror_velocity(const sph_home *h, const sph_mirror_tile *m, sph_near *p)
@@ -34,7 +35,8 @@ SPH_INLINE void sph_mirror_velocity(const sph_home *h, const sph_mirror_tile *m,
 SPH_INLINE void sph_inverse_distance(const sph_choice *c, const sph_factors *f, const sph_home *h, sph_near *p)
 {
     const bool asked = sph_viscous(c->viscosity) || sph_diffusive(c->diffusion);
-    p->inv = asked ? 1 / ((p->r2 + f->eta) * (h->rho + p->rho)) : p->r2;
+    const vreal soft = sph_varies(c) ? p->r2 + p->wide * p->wide * f->eta : p->r2 + f->eta;
+    p->inv = asked ? 1 / (soft * (h->rho + p->rho)) : p->r2;
 }
 
 /* sound: where energies go by their equation, h alpha (c_i + c_j) (energy.h) */
@@ -53,11 +55,14 @@ SPH_INLINE void sph_viscosity(const sph_choice *c, const sph_factors *f, const s
         vv = v_where(v_less(vv, v_set(0)), vv);
     const vreal mu = vv * p->inv; /* mu of Gray 2.18 over (rho_i + rho_j) */
     if (SPH_IS(c->viscosity, MORRIS)) {
-        p->fm = p->mg * p->r2 * (f->morris / ((p->r2 + f->eta_morris) * (h->rho + p->rho)));
+        const vreal soft = sph_varies(c) ? p->r2 + p->wide * p->wide * f->eta_morris : p->r2 + f->eta_morris;
+        p->fm = p->mg * p->r2 * (f->morris / (soft * (h->rho + p->rho)));
     } else {
         vreal strength = SPH_WITH_ENERGY && c->energy ? sound : v_set(f->av_alpha);
         if (c->beta)
             strength = strength + f->av_beta * ((h->rho + p->rho) * v_abs(mu));
+        if (sph_varies(c)) /* h alpha c, h^2 beta |mu| */
+            strength = sph_varied_strength(c, f, sound, (h->rho + p->rho) * v_abs(mu), p);
         p->visc = mu * strength * p->mg;
         p->force = p->force - p->visc;
     }

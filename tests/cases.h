@@ -21,7 +21,7 @@ typedef struct bits_case {
     bool hat, held, beside;               /* strain rates smoothed; one end held and pulled; a gas beside the rock */
     uint32_t gradient;
     uint32_t sponge;                      /* SPONGE_... */
-    bool shifting;
+    bool shifting, apart;                 /* apart: close pairs near a surface, too */
     bool flat;                            /* weights beside flat faces: none in 1-D */
     uint32_t shear, filter;
     bool hourglass;
@@ -32,6 +32,7 @@ typedef struct bits_case {
     bool energy;
     bool guard;                           /* of corrected gradients */
     uint32_t edge, layer;                 /* SPH_EDGE_...; thickness of the matched layer, spacings */
+    bool widths;                          /* a smoothing length of each particle */
 } bits_case;
 
 #define CASE_BASE .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_ADAMI
@@ -248,6 +249,17 @@ static const bits_case bits_cases[] = {
     {"edge_p", CASE_EDGE, .solid = SPH_UPDATED, .edge = SPH_EDGE_P, .books = true},
     {"edge_m", CASE_EDGE, .solid = SPH_TOTAL, .edge = SPH_EDGE_M},
     {"edge_h", CASE_EDGE, .solid = SPH_CORRECTED, .edge = SPH_EDGE_H, .viscosity = SPH_ARTIFICIAL},
+    /* shifting of close pairs near a surface */
+    {"shift_pairs", CASE_BASE, .shifting = true, .apart = true, .books = true},
+    {"shift_pairs_kick_drift_kick", CASE_BASE, .shifting = true, .apart = true, .integrator = SPH_KICK_DRIFT_KICK,
+     .scheme = SPH_WEAK, .floor = true},
+    /* variable smoothing length */
+    {"variable_h", CASE_GAS, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL_APPROACHING, .face = SPH_SYMMETRY,
+     .widths = true, .books = true},
+    {"variable_h_periodic", CASE_GAS, .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .scheme = SPH_WEAK,
+     .face = SPH_PERIODIC, .widths = true, .integrator = SPH_KICK_DRIFT_KICK},
+    {"variable_h_morris", CASE_GAS, .kernel = SPH_QUINTIC, .viscosity = SPH_MORRIS, .scheme = SPH_STANDARD_WICK,
+     .face = SPH_MIRROR_NO_SLIP, .widths = true, .books = true, .integrator = SPH_RUNGE_KUTTA},
 };
 enum { BITS_CASES = sizeof bits_cases / sizeof bits_cases[0] };
 
@@ -330,6 +342,9 @@ static sph_config case_config(const bits_case *b)
     c.hourglass = b->hourglass ? 0.1 : 0;
     c.integrator = b->integrator;
     c.energy = b->energy;
+    c.variable_h = b->widths;
+    c.h_min = b->widths ? 0.9 : c.h_min;
+    c.h_max = b->widths ? 1.05 : c.h_max; /* so that small boxes have three cells */
     c.xsph = b->xsph ? 0.5 : 0;
     c.shepard_every = b->shepard ? 3 : 0;
     c.filter = b->filter;
@@ -362,6 +377,7 @@ static sph_config case_config(const bits_case *b)
     }
     case_sponge(&c, b->sponge);
     c.shifting = b->shifting ? 0.5 : 0;
+    c.shift_pairs = b->apart;
     c.max_flows = b->flow ? 2 : 0;
     c.damper = b->quiet ? 0.2 : 0;
     c.damping_rate = b->slowed ? 30 : 0;

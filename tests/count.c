@@ -3,9 +3,10 @@
    made: of every particle, walls too, after each step. Compiled for each build.
 
      count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
-                            total: its block of a solid; default, no_books, large_eddies, shifting: the scene dam_break
-                            or dam_break_3d as it is, without books, with large eddies, with its particles shifted,
-                            with the acoustic damper, with density diffusion after Antuono */
+                            total: its block of a solid; tight, empty: its block of water, in a domain that fits and in
+                            much room; default, no_books, large_eddies, shifting, damper, antuono: the scene dam_break
+                            or dam_break_3d as it is, without books, with large eddies, with its particles shifted, with
+                            the acoustic damper, with density diffusion after Antuono */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 
@@ -76,8 +77,8 @@ int main(int argc, char **argv)
     unsigned long long done = 0;
     tank t;
     if (argc != 4) {
-        fprintf(stderr, "usage: count bench|corrected|elastic|total|default|no_books|large_eddies|shifting|damper|"
-                        "antuono N STEPS\n");
+        fprintf(stderr, "usage: count bench|corrected|elastic|total|tight|empty|default|no_books|large_eddies|shifting|"
+                        "damper|antuono N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);
@@ -89,6 +90,10 @@ int main(int argc, char **argv)
         t = block(n, SPH_UPDATED, SPH_NO_ARTIFICIAL_STRESS, false);
     else if (strcmp(argv[1], "total") == 0)
         t = block(n, SPH_TOTAL, SPH_NO_ARTIFICIAL_STRESS, false);
+    else if (strcmp(argv[1], "tight") == 0)
+        t = block_in(5, n, SPH_NO_SOLID, 0, false);
+    else if (strcmp(argv[1], "empty") == 0)
+        t = block_in(398, n, SPH_NO_SOLID, 0, false);
     else
         t = scene_tank(dam_break, n, argv[1]);
     for (uint32_t k = 0; k < steps; k++) {

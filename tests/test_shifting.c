@@ -52,7 +52,7 @@ static sph_sim *fill(const sph_config *c, uint32_t w)
 /* ---- the sums, once more ---- */
 
 typedef struct sums {
-    double slope[SPH_DIM], cover, spread[SPH_DIM][SPH_DIM];
+    double slope[SPH_DIM], nearer[SPH_DIM], cover, spread[SPH_DIM][SPH_DIM];
 } sums;
 
 /* whether a place has an image number `image` (digits to the base 3) behind the faces, and where */
@@ -82,10 +82,11 @@ static double slope_of(const sph_config *c, double r, double *w)
 static sums sums_at(const sph_sim *sim, const sph_config *c, const double *x)
 {
     sums s;
-    double w_dx;
+    double w_dx, w_apart;
     const uint32_t images = SPH_DIM == 1 ? 3 : SPH_DIM == 2 ? 9 : 27;
     memset(&s, 0, sizeof s);
     slope_of(c, c->spacing, &w_dx);
+    slope_of(c, 0.8 * c->spacing, &w_apart);
     for (uint32_t i = 0; i < sph_count(sim); i++) {
         sph_particle p;
         assert_int_equal(sph_get(sim, i, &p), SPH_OK);
@@ -101,6 +102,7 @@ static sums sums_at(const sph_sim *sim, const sph_config *c, const double *x)
             s.cover += v * w;
             for (int k = 0; k < SPH_DIM; k++) {
                 s.slope[k] += v * (1 + 0.2 * f * f * f * f) * g * (x[k] - y[k]);
+                s.nearer[k] += v * 0.5 * fmax(0, pow(f, 4) - pow(w_apart / w_dx, 4)) * g * (x[k] - y[k]);
                 for (int l = 0; l < SPH_DIM; l++)
                     s.spread[k][l] -= v * g * (x[k] - y[k]) * (x[l] - y[l]);
             }
@@ -137,7 +139,7 @@ static bool wanted(const sph_sim *sim, const sph_config *c, const double *x, dou
     double d2 = 0;
     *why = s.cover <= 0.9 ? 1 : least <= 0.75 ? 2 : 0;
     for (int k = 0; k < SPH_DIM; k++) {
-        d[k] = *why ? 0 : -by * s.slope[k];
+        d[k] = !*why ? -by * s.slope[k] : c->shift_pairs ? -by * s.nearer[k] : 0;
         d2 += d[k] * d[k];
     }
     const double most = 0.05 * c->spacing;
@@ -161,6 +163,7 @@ static double compare(const sph_config *c, uint32_t w, uint32_t *count)
     sph_config plain = *c;
     double largest = 0;
     plain.shifting = 0;
+    plain.shift_pairs = false;
     sph_sim *with = fill(c, w), *without = fill(&plain, w);
     must(with, sph_step(with));
     must(without, sph_step(without));
@@ -207,6 +210,42 @@ static void each_goes_as_its_sums_say(void **state)
         const bool closed = w == PERIODIC || w == MIRRORS; /* holes of the cloud only */
         assert_true(closed ? 20 * (count[1] + count[2]) < count[0] : count[1] > 0);
         assert_true(closed || SPH_DIM == 1 || count[2] > 0);
+    }
+}
+
+/* two by two in the open, a pair of 0.5 dx and one of 0.9 dx: the first goes apart, to both sides alike */
+static void near_a_surface_close_pairs_go_apart(void **state)
+{
+    (void)state;
+    for (uint32_t w = 0; w < WORLDS; w++) {
+        sph_config c = world(w, 1);
+        uint32_t count[4] = {0};
+        c.shift_pairs = true;
+        (void)compare(&c, w, count);
+        assert_true(count[0] > N / 2 && (w != OPEN || count[1] + count[2] > 0));
+    }
+    for (int pairs = 0; pairs < 2; pairs++) {
+        sph_config c = world(OPEN, 1);
+        uint32_t set;
+        double gap[2];
+        c.shift_pairs = pairs;
+        c.gravity[UP] = 0;
+        c.pressure_floor = true;
+        sph_sim *sim = new_sim(&c);
+        must(sim, sph_add_fluid(sim, NULL, &set));
+        for (uint32_t i = 0; i < 4; i++) {
+            double x[3] = {0.2, 0.2, 0.2}, v[3] = {0.01, 0, 0};
+            x[0] += (i / 2) * 8 * DX + (i % 2) * (i < 2 ? 0.5 : 0.9) * DX;
+            must(sim, sph_add_particle(sim, set, x, v, 0, NULL));
+        }
+        const double middle = by_id(sim, 0).x[0] + by_id(sim, 1).x[0];
+        for (int k = 0; k < 50; k++)
+            must(sim, sph_step(sim));
+        for (uint32_t i = 0; i < 2; i++)
+            gap[i] = (by_id(sim, 2 * i + 1).x[0] - by_id(sim, 2 * i).x[0]) / DX;
+        assert_true(pairs ? gap[0] > 0.5 + 1e-4 : fabs(gap[0] - 0.5) < 1e-4);
+        close_to(gap[1], 0.9, 1e-4);
+        close_to(by_id(sim, 0).x[0] + by_id(sim, 1).x[0], middle + 0.02 * 50 * DT, 1e-5);
     }
 }
 
@@ -489,6 +528,10 @@ static void what_makes_no_sense_is_refused(void **state)
     assert_true(r.value == 0.5);
     c.shifting = 0;
     assert_int_equal(sph_config_check(&c, &r), SPH_OK);
+    c.solid = SPH_NO_SOLID;
+    c.shift_pairs = true;
+    assert_int_equal(sph_config_check(&c, &r), SPH_BAD_CONFIG);
+    assert_string_equal(r.what, "shift_pairs");
 }
 
 /* ---- the machine that runs steps ---- */
@@ -502,6 +545,7 @@ static void slices_threads_and_restarts_change_no_bit(void **state)
     for (uint32_t i = 0; i < SPH_INTEGRATORS; i++) {
         sph_config c = world(i % 2 ? TANK : PERIODIC, 1);
         c.integrator = i;
+        c.shift_pairs = i % 2;
         c.on_cross = SPH_PUT_BACK;
         sph_get_totals(same_bits_any_way(c, i % 2 ? fill_tank : fill_periodic, 8), &t);
         assert_true(t.shifted > 0 || t.shifted < 0);
@@ -513,6 +557,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         subject(each_goes_as_its_sums_say),
+        subject(near_a_surface_close_pairs_go_apart),
         subject(whatever_the_kernel_the_density_and_the_step),
         subject(with_diffusion_and_books_too),
         subject(nobody_goes_further_than_the_cap),

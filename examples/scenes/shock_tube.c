@@ -29,7 +29,8 @@ static double sound(const double *p, double e) { return __builtin_sqrt(gamma_of(
 /* rows across, at least as many as a periodic axis takes */
 static double across(const double *p)
 {
-    const double least = 3 * sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] + 1;
+    const double widest = p[SCENE_OF_variable_h] > 0 ? p[SCENE_OF_h_max] : 1;
+    const double least = 3 * sph_kernel_support((uint32_t)p[SCENE_KERNEL]) * p[SCENE_H] * widest + 1;
     const double rows = p[ACROSS] > 0 ? p[ACROSS] : p[N];
     return SPH_DIM == 1 ? 1 : rows < least ? (double)(int64_t)(least + 1) : rows;
 }

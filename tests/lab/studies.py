@@ -484,9 +484,19 @@ weir = Study(
     {"default": {}, "h 1.2": dict(h=1.2), "h 2": dict(h=2), "no floor": dict(floor="no"),
      "alpha 0.05": dict(alpha=0.05), "corrected": dict(gradient="bonet_lok")})
 
+tube = Study(
+    "shock_tube", "Sod's shock tube in 2-D (B5)", "shock_tube", "L1 error of the density at t 0.2",
+    "% of the left one's",
+    "exact solution (examples/scenes/riemann.c)", lambda run: last(whole(run), "L1_density"),
+    "n, particles along the tube", [50, 100, 200, 400],
+    {"default": {}, "corrected": dict(gradient="bonet_lok"), "variable h": dict(variable_h="yes"),
+     "variable h, Wendland C4": dict(variable_h="yes", kernel="wendland_c4"),
+     "variable h, h 3": dict(variable_h="yes", h=3), "Wendland C4": dict(kernel="wendland_c4")},
+    base=dict(beta=2, frames=1), doubles=("variable h, Wendland C4",))
+
 STUDIES = [hydrostatic, still_tank, dam_break, impact, impact_top, impact_after, impact_levels, dam_break_3d, obstacle,
            obstacle_peaks, taylor_green, channel, standing_wave, elliptical_drop, pulse, pulse_amplitude, rings, plate,
-           beam, csm3, csm3_beat, hole, weir]
+           beam, csm3, csm3_beat, hole, weir, tube]
 QUANTITY = {
     "hydrostatic": "pressure", "still_tank": "pressure", "dam_break": "front", "impact": "pressure noise",
     "impact_peak": "pressure peak", "impact_mean": "pressure mean", "impact_levels": "levels front",
@@ -494,7 +504,7 @@ QUANTITY = {
     "channel": "velocity", "standing_wave": "surface", "elliptical_drop": "front", "pulse": "speed",
     "pulse_amplitude": "amplitude", "rings": "shape", "plate": "period", "beam": "period",
     "csm3": "amplitude", "csm3_frequency": "frequency", "hole": "stress",
-    "weir": "angle",
+    "weir": "angle", "shock_tube": "density",
 }
 for study in STUDIES:
     study.quantity = QUANTITY[study.name]

@@ -152,8 +152,9 @@ static o_sum largest_acceleration(const o_scene *s)
     for (uint32_t turn = 0; turn < 2; turn++)
         for (uint32_t i = 0; i < s->n; i++) {
             const o_particle *p = &s->own[i];
-            const double a = sqrt(p->a[0].v * p->a[0].v + p->a[1].v * p->a[1].v + p->a[2].v * p->a[2].v);
-            const double scale = a + p->a[0].s + p->a[1].s + p->a[2].s;
+            const double told = s->cfg.smoothing_length / o_own_h(s, p);
+            const double a = sqrt(p->a[0].v * p->a[0].v + p->a[1].v * p->a[1].v + p->a[2].v * p->a[2].v) * told;
+            const double scale = a + (p->a[0].s + p->a[1].s + p->a[2].s) * told;
             if (!o_is_body(s, p))
                 continue;
             if (turn == 0)

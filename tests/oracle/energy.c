@@ -5,7 +5,8 @@
    3.42, that of 3.80, 3.23, 3.52, 3.81 of Wickramarachchi 2009. Of other fluids du_i = q_i. q_i is what viscosity
    makes: half of its work on the relative velocity that it sees, and tau_i : L_i/rho_i of a viscous stress
    (viscosity.c, shear.c: `viscous`). The Courant limit takes max(|mu|, |mu| + (c - c0)/h), or with courant alpha/(2
-   (DIM + 2) viscous_factor) c for c, whichever asks for more. */
+   (DIM + 2) viscous_factor) c for c, whichever asks for more; with h of its own of each particle (width.c) (|mu| + c/h)
+   less the c0/h of its set and the configuration. */
 #include "oracle.h"
 
 bool o_is_gas(const o_scene *s, const o_particle *p) { return s->set[p->set].eos == SPH_IDEAL_GAS; }
@@ -33,5 +34,5 @@ double o_sound_as_mu(const o_scene *s, const o_particle *p)
     const sph_config *c = &s->cfg;
     const bool artificial = c->viscosity == SPH_ARTIFICIAL || c->viscosity == SPH_ARTIFICIAL_APPROACHING;
     const double k = artificial ? o_courant_number(c) * c->alpha / (2 * (SPH_DIM + 2) * c->viscous_factor) : 0;
-    return (p->c * o_max(k, 1) - s->set[p->set].c0) / c->smoothing_length;
+    return p->c * o_max(k, 1) / o_own_h(s, p) - s->set[p->set].c0 / c->smoothing_length;
 }

@@ -61,7 +61,7 @@ o_limits o_find_limits(const o_scene *s)
             continue;
         mu = o_max(mu, p->mu);
         edge = o_max(edge, p->mu_at_edge);
-        if (o_is_gas(s, p)) {
+        if (o_is_gas(s, p) || c->variable_h) {
             const double told = o_max(p->mu, c->shear != SPH_NO_SHEAR ? p->eddy : 0) + o_sound_as_mu(s, p);
             mu = o_max(mu, told);
             l.courant_scale = 1 + 4 * p->c / (sound + c->smoothing_length * mu);
@@ -70,7 +70,7 @@ o_limits o_find_limits(const o_scene *s)
             mu = p->eddy;
             l.courant_scale = p->eddy_scale;
         }
-        a = o_max(a, sqrt(p->a[0].v * p->a[0].v + p->a[1].v * p->a[1].v + p->a[2].v * p->a[2].v));
+        a = o_max(a, sqrt(p->a[0].v * p->a[0].v + p->a[1].v * p->a[1].v + p->a[2].v * p->a[2].v) * h / o_own_h(s, p));
     }
     for (int k = 0; k < SPH_DIM; k++)
         g2 += c->gravity[k] * c->gravity[k];
@@ -82,9 +82,10 @@ o_limits o_find_limits(const o_scene *s)
     l.courant_undecided = h * edge > h * mu + (SPH_DOUBLE ? 1e-13 : 1e-7) * sound;
     mu = o_max(mu, edge);
     l.courant = o_courant_number(c) * h / (sound + h * mu);
-    l.viscous = nu > 0 ? c->viscous_factor * h * h / nu : 0;
+    const double least = o_least_h(s), thin = c->viscosity == SPH_MORRIS ? least : h; /* artificial: by particle */
+    l.viscous = nu > 0 ? c->viscous_factor * thin * thin / nu : 0;
     l.force = a > 0 ? c->force_factor * sqrt(h / a) : 0;
-    l.gravity = g2 > 0 ? c->gravity_factor * h / (sound + sqrt(sqrt(g2) * h)) : 0;
+    l.gravity = g2 > 0 ? c->gravity_factor * least / (sound + sqrt(sqrt(g2) * least)) : 0;
     l.diffusion = c->diffusion && c->delta > 0 ? diffusion_number(c) * h / (c->delta * nominal) : 0;
     return l;
 }

@@ -279,7 +279,7 @@ void look_scene(const sph_sim *sim, const plan *p, o_scene *s)
 {
     const sph_buffer *b = &sim->buf[sim->cur];
     s->cfg = sim->cfg;
-    s->support = o_weight_support(s->cfg.kernel) * s->cfg.smoothing_length;
+    s->support = o_weight_support(s->cfg.kernel) * s->cfg.smoothing_length * (s->cfg.variable_h ? s->cfg.h_max : 1);
     s->time = sim->now.time;
     s->undecided = NULL;
     s->shaken = false;

@@ -177,6 +177,11 @@ double o_weight(uint32_t kernel, double r, double h);       /* W, 1/m^DIM */
 double o_weight_slope(uint32_t kernel, double r, double h); /* dW/dr */
 double o_weight_support(uint32_t kernel);                   /* in units of h */
 
+/* ---- width.c: smoothing lengths, m ---- */
+double o_own_h(const o_scene *s, const o_particle *p);
+double o_pair_h(const o_scene *s, const o_particle *i, const o_particle *j);
+double o_least_h(const o_scene *s); /* that a particle may have */
+
 /* ---- states.c: equations of state ---- */
 double o_pressure(uint32_t eos, double rho0, double c0, double d);         /* Pa, without floor */
 double o_energy(uint32_t eos, double rho0, double c0, double d, bool floor); /* J/kg: integral of p/rho^2 d rho */
@@ -196,6 +201,7 @@ typedef struct o_pair {
     bool apart, bond;         /* of two bodies; of one body, seen in the reference position */
     bool edge;                /* so near to the support's end, from within or without, that rounding decides */
     double volume;            /* m_j/rho_j */
+    double h;                 /* m, smoothing length of the pair */
 } o_pair;
 bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p); /* false: beyond the support */
 

@@ -8,9 +8,10 @@ static bool is_whole(const o_scene *s, const o_particle *p) { return o_is_solid(
 
 bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p)
 {
-    const double h = s->cfg.smoothing_length;
+    const double h = o_pair_h(s, i, j), support = o_weight_support(s->cfg.kernel) * h;
     const uint32_t kernel = s->cfg.kernel;
     const bool both = s->cfg.solid == SPH_TOTAL && is_whole(s, i) && is_whole(s, j);
+    p->h = h;
     p->bond = both && s->set[i->set].body == s->set[j->set].body;
     p->apart = both && !p->bond;
     for (int k = 0; k < 3; k++) {
@@ -19,24 +20,24 @@ bool o_pair_of(o_scene *s, const o_particle *i, const o_particle *j, o_pair *p)
         p->v[k] = i->v[k] - j->v[k];
     }
     const double q2 = o_dot(p->k, p->k);
-    if (q2 > s->support * s->support * 1.001)
+    if (q2 > support * support * 1.001)
         return false;
     p->q = sqrt(q2);
     p->r = sqrt(o_dot(p->x, p->x));
     if (kernel == SPH_HAT || kernel == SPH_GAUSSIAN) /* they end with a step */
-        o_close(s, "a pair at the kernel's edge", p->q, s->support, s->support);
+        o_close(s, "a pair at the kernel's edge", p->q, support, support);
     /* nearly at one place a cone has no slope to speak of; those of splines the kernel lets go to 0 below 1e-6 h */
     const double least = kernel == SPH_HAT ? 0 : (SPH_DOUBLE ? 1e-13 : 1e-7) * h;
     const double most = kernel == SPH_HAT ? 1e-5 * h : kernel <= SPH_QUINTIC ? 2e-6 * h : -1;
     if ((p->q > 0 || j->image) && p->q >= least && p->q < most)
         s->undecided = "a pair nearly at one place";
     if (p->bond) {
-        o_close(s, "a bond at its longest", p->r, s->support * s->cfg.max_stretch, s->support);
-        if (p->r > s->support * s->cfg.max_stretch && p->q < s->support)
+        o_close(s, "a bond at its longest", p->r, support * s->cfg.max_stretch, support);
+        if (p->r > support * s->cfg.max_stretch && p->q < support)
             s->undecided = "a bond that is too long";
     }
-    p->edge = fabs(p->q - s->support) <= (SPH_DOUBLE ? 1e-9 : 1e-4) * s->support;
-    const bool beyond = p->q >= s->support; /* at the edge: a pair of which nothing is left but that it is one */
+    p->edge = fabs(p->q - support) <= (SPH_DOUBLE ? 1e-9 : 1e-4) * support;
+    const bool beyond = p->q >= support; /* at the edge: a pair of which nothing is left but that it is one */
     if ((beyond && !p->edge) || !o_acts_on(s, i, j) || !o_acts_on(s, j, i))
         return false;
     const double slope = beyond ? 0 : o_weight_slope(kernel, p->q, h);

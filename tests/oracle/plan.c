@@ -399,6 +399,24 @@ static void draw_energy(plan *p)
         p->point[i].warm = range(0.3, 2);
 }
 
+/* a smoothing length of each particle, of a gas alone */
+static void draw_widths(plan *p)
+{
+    sph_config own = p->cfg;
+    if (!own.energy || own.eos != SPH_IDEAL_GAS || own.density != SPH_CONTINUITY || !chance(0.6))
+        return;
+    own.variable_h = true;
+    own.h_min = range(0.4, 1);
+    own.h_max = range(1, 1.6);
+    own.gradient = SPH_PLAIN;
+    own.diffusion = SPH_NO_DIFFUSION;
+    own.xsph = own.shifting = own.shepard_every = 0;
+    own.xsph_velocity = own.shift_pairs = false;
+    own.shear = SPH_NO_SHEAR;
+    if (sph_config_check(&own, NULL) == SPH_OK) /* the domain may be too small for its cells */
+        p->cfg = own;
+}
+
 /* how many particles an inflow begins with */
 static uint32_t plan_inflow(const plan *p)
 {
@@ -557,6 +575,7 @@ void plan_draw(plan *p, uint64_t seed)
         if (p->cfg.sponge_low[k] > 0 || p->cfg.sponge_high[k] > 0)
             p->cfg.sponge_rate = range(0.1, 3) * p->cfg.sound_speed / p->cfg.spacing / (p->still_step ? PLAN_STILL : 1);
     p->cfg.shifting = p->cfg.solid == SPH_NO_SOLID && !p->still_step && chance(0.4) ? range(0.1, 4) : 0;
+    p->cfg.shift_pairs = p->cfg.shifting > 0 && chance(0.5);
     if (p->cfg.shifting > 0 && !SPH_DOUBLE) /* it pushes hard, and its bounds switch: rounding errors of floats grow */
         p->steps = (uint32_t)o_min(p->steps, 5);
     const bool corrects = p->cfg.solid == SPH_CORRECTED || p->cfg.solid == SPH_TOTAL;
@@ -567,6 +586,7 @@ void plan_draw(plan *p, uint64_t seed)
     draw_the_going(p);
     draw_small(p);
     draw_energy(p);
+    draw_widths(p);
     if (p->cfg.solid >= SPH_NORMALISED) /* forces and rates of near-singular sums make rounding errors grow */
         p->steps = (uint32_t)o_min(p->steps, 4);
     p->cfg.hourglass = p->cfg.solid == SPH_TOTAL && chance(0.4) ? range(0.01, 1) : 0;
@@ -605,9 +625,10 @@ void plan_print(const plan *p)
            c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
     printf("  guard %d\n", c->gradient_guard);
-    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g, edge %u, damping %g, drag %g\n",
+    printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g, edge %u, damping %g, drag %g, "
+           "h %g .. %g\n",
            c->shear, c->smagorinsky, c->subgrid, c->filter, c->energy, c->gamma, c->hourglass, c->edge, c->damping,
-           p->drag);
+           p->drag, c->variable_h ? c->h_min : 1, c->variable_h ? c->h_max : 1);
     printf("  %s, eos %s, yield %u, damage %u, artificial stress %u (n %u, eps %g)%s, shepard %u, books %d, "
            "body force %d\n",
            word[6][c->solid], word[7][c->eos], c->yield, c->damage, c->artificial_stress, c->stress_exponent,

@@ -6,9 +6,9 @@
 o_probe_value o_probe(o_scene *s, const double *x)
 {
     o_probe_value o = {{0, 0}, {0, 0}, {0, 0}, {{0, 0}, {0, 0}, {0, 0}}};
-    const double h = s->cfg.smoothing_length;
     for (uint32_t b = 0; b < s->m; b++) {
         const o_particle *j = &s->all[b];
+        const double h = o_own_h(s, j), support = o_weight_support(s->cfg.kernel) * h;
         double r2 = 0;
         if (!o_is_body(s, j))
             continue;
@@ -16,8 +16,8 @@ o_probe_value o_probe(o_scene *s, const double *x)
             r2 += (j->x[k] - x[k]) * (j->x[k] - x[k]);
         const double r = sqrt(r2), volume = s->set[j->set].mass / j->rho;
         if (s->cfg.kernel == SPH_HAT || s->cfg.kernel == SPH_GAUSSIAN)
-            o_close(s, "a probe at a kernel's edge", r, s->support, s->support);
-        if (r >= s->support)
+            o_close(s, "a probe at a kernel's edge", r, support, support);
+        if (r >= support)
             continue;
         const double w = volume * o_weight(s->cfg.kernel, r, h);
         const double size = w + 0.05 * volume * o_weight(s->cfg.kernel, 0, h);

@@ -39,7 +39,7 @@ bool o_sheared_velocity(const o_scene *s, const o_particle *i, const o_particle 
 
 void o_viscosity(o_scene *s, o_particle *i, const o_particle *j, const o_pair *p)
 {
-    const double h = s->cfg.smoothing_length, m = s->set[j->set].mass, rho = 0.5 * (i->rho + j->rho);
+    const double h = p->h, m = s->set[j->set].mass, rho = 0.5 * (i->rho + j->rho);
     double v[3], a[3], k[3], stretch;
     if (s->cfg.viscosity == SPH_INVISCID || !o_sheared_velocity(s, i, j, p, v))
         return;
