@@ -198,14 +198,21 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
 }
 
-/* what a form of solids wants to know of a home */
+/* what a form of solids, or diffusion after Antuono, wants to know of a home */
 typedef struct form_home {
+    vreal slope[SPH_DIM];
     sph_stabilised_home means;
     sph_normalised_home normal;
     sph_deform_home deform;
 } form_home;
 SPH_INLINE void spread_form(at_home *o, form_home *form, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
+    SPH_UNROLL
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        form->slope[k] = v_set(0);
+    o->slope = form->slope;
+    if (SPH_IS(o->c->diffusion, ANTUONO) && !o->c->wall)
+        o->steepness = sph_spread_density_gradient(sim, t, h, form->slope);
     if (SPH_HAS_STABILISED) /* places, whether the scene has them or not */
         o->stabilised = sph_stabilised_of(sim, t);
     if (SPH_HAS_HOURGLASS)
@@ -238,10 +245,6 @@ SPH_INLINE void force_home(const sph_choice *c, const sph_factors *f, const sph_
         o.corrected = sph_near_columns_of(sim, t, SPH_COLUMN_gradient);
         gradient = sph_spread_gradient(c, sim, t, h);
     }
-    vreal slope[SPH_DIM] = {v_set(0)};
-    o.slope = slope;
-    if (SPH_IS(c->diffusion, ANTUONO) && !wall)
-        o.steepness = sph_spread_density_gradient(sim, t, h, slope);
     sph_shear_home shear;
     if (SPH_WITH_SHEAR && c->shear) {
         o.sheared = sph_near_columns_of(sim, t, SPH_COLUMN_shear);
