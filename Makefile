@@ -221,6 +221,7 @@ builds_test_shapes  := $(BUILDS)
 builds_test_contact := $(BUILDS)
 builds_test_gradient := $(BUILDS)
 builds_test_shear   := $(BUILDS)
+builds_test_density_gradient := $(BUILDS)
 builds_test_energy  := 1d 2f 2d 3f
 # of commands of the tool, linked with those that need no scene: one build
 TOOL_TESTS := test_dispersion test_gradykipp test_fragments test_fields test_profile test_advise test_atlas \

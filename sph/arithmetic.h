@@ -19,7 +19,8 @@ _Static_assert(sizeof 1.0 == sizeof(double), "sph must not be built with -fsingl
 /* every object of the kernel: sph/NAME.c */
 #define SPH_OBJECTS(X)                                                                                             \
     X(adami) X(arithmetic) X(bodies) X(boundary) X(carry) X(columns) X(config) X(correction) X(crossing)           \
-    X(damage) X(damper) X(damping) X(density) X(digest) X(dmath) X(dump) X(edges) X(energy) X(eos) X(evening)      \
+    X(damage) X(damper) X(damping) X(density) X(density_gradient) X(digest) X(dmath) X(dump) X(edges) X(energy)   \
+    X(eos) X(evening)                                                                                              \
     X(faces) X(factors) X(fields) X(finish) X(flaws) X(flow) X(forces) X(format) X(gradient) X(grid) X(groups)     \
     X(hash) X(hourglass) X(init) X(initial) X(inspect) X(integrators) X(kernels) X(layers) X(layout) X(mirror)     \
     X(mls) X(motions) X(move) X(neighbours) X(normalised) X(openings) X(options) X(outline) X(polyline)            \

@@ -27,6 +27,7 @@
     MANY(normal, sph_real, SPH_NL + SPH_DIM, SPH_ROOM(c), sph_normalises(c), "normalised kernels")                    \
     MANY(deform, sph_real, SPH_NL + 1, SPH_ROOM(c), sph_resists_hourglass(c), "deformation gradients")                \
     MANY(gradient, sph_real, SPH_NT, SPH_ROOM(c), sph_corrects_fluids(c), "gradient correction of fluids")            \
+    MANY(density_gradient, sph_real, SPH_DIM, SPH_ROOM(c), sph_takes_density_gradient(c), "gradient of density")      \
     MANY(shear, sph_real, SPH_NL + 1, SPH_ROOM(c), sph_shears(c), "viscous stress of fluids")                         \
     /* by id: a particle's flaws are flaw[flaw_start[id] .. flaw_start[id + 1]) */                                    \
     ONE(flaw_start, uint32_t, (size_t)c->max_particles + 1, sph_damages(c), "flaws of a particle")                    \

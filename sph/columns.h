@@ -22,6 +22,7 @@
     X(deform, 0, SPH_NL + 1, SPH_HAS_HOURGLASS, sph_resists_hourglass(c))                                          \
     X(smoothed, 0, SPH_DIM, SPH_HAS_HAT, sph_smooths_strain(c))                                                    \
     X(gradient, 0, SPH_NT, SPH_HAS_FLUID_GRADIENT, sph_corrects_fluids(c))                                         \
+    X(density_gradient, 0, SPH_DIM, SPH_WITH_ANTUONO, sph_takes_density_gradient(c))                               \
     X(shear, 0, SPH_NL + 1, SPH_WITH_SHEAR, sph_shears(c))                                                          \
     X(energy, 0, 1, SPH_WITH_ENERGY, sph_has_energy(c))                                                            \
     X(wide, 0, 1, SPH_WITH_VARIABLE_H, sph_varies_h(c))                                                            \

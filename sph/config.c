@@ -46,6 +46,10 @@ static sph_status check_fluids(const sph_config *c, sph_report *r)
         return sph_refuse(r, "nu", ">= 0, and > 0 for SPH_NESTED", c->nu);
     if (SPH_IS(c->density, SUMMATION) && (c->diffusion || sph_filters(c)))
         return sph_refuse(r, "density", "SPH_CONTINUITY when diffusion or the Shepard filter is on", c->density);
+    if (sph_takes_density_gradient(c) && sph_has_solids(c))
+        return sph_refuse(r, "diffusion", "SPH_NO_DIFFUSION .. SPH_HYDROSTATIC with solids", c->diffusion);
+    if (SPH_WITH_BONET_LOK && c->gradient_guard && c->gradient != SPH_BONET_LOK)
+        return sph_refuse(r, "gradient_guard", "false but with SPH_BONET_LOK", 1);
     if (!sph_corrects_fluids(c))
         return SPH_OK;
     if (c->density != SPH_CONTINUITY)

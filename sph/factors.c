@@ -2,6 +2,7 @@
 /* factors.c: constants of the pair formulas, made at init and when the configuration changes, or, where they are not
    the same for all pairs, of a home and a tile; and the Courant number that the integrator stands. */
 #include "factors.h"
+#include "density_gradient.h"
 #include "kernels.h"
 #include "sweep.h"
 #include "arithmetic.h"
@@ -85,7 +86,7 @@ static bool loses_energy(const sph_config *c)
 {
     bool loses = SPH_IS(c->scheme, DIRECT) || SPH_IS(c->scheme, STANDARD_WICK) || SPH_IS(c->scheme, WEAK_WICK) ||
         sph_smooths_strain(c) || sph_stabilises(c) || sph_normalises(c) ||
-        (sph_sums_density(c) && sph_weak_scheme(c->scheme));
+        (sph_sums_density(c) && sph_weak_scheme(c->scheme)) || sph_guards_gradient(c);
     for (uint32_t k = 0; k < SPH_DIM; k++) /* images that move along the face */
         loses |= SPH_IS(c->face[k][0], MIRROR_NO_SLIP) || SPH_IS(c->face[k][1], MIRROR_NO_SLIP);
     return loses;
@@ -258,6 +259,8 @@ uint8_t sph_asks_apart(const sph_sim *sim)
             const bool mirror = SPH_IS(face, SYMMETRY) || SPH_IS(face, MIRROR_NO_SLIP);
             apart |= mirror && c->gravity[k] != 0 ? SPH_APART_MIRRORED : 0;
         }
+    if (SPH_HAS_MIRRORS && sph_takes_density_gradient(c) && sph_turns_upside_down(c))
+        apart |= SPH_APART_MIRRORED;
     return apart;
 }
 
@@ -277,6 +280,8 @@ const sph_factors *sph_pair_factors(const sph_sim *sim, sph_thread *t, uint32_t 
     f->av_alpha = (sph_real)(c->smoothing_length * c->alpha * (i->c0 + j->c0));
     if (SPH_HAS_DIFFUSION)
         f->diff = i->kin == j->kin ? (sph_real)(2 * c->delta * c->smoothing_length * i->c0) : 0;
+    if (sph_takes_density_gradient(c) && !ghosts && sph_is_upside_down(sim, t))
+        f->diff = 0;
     for (uint32_t k = 0; k < SPH_DIM && SPH_IS(c->diffusion, HYDROSTATIC); k++) {
         const double slope = i->rho0 * c->gravity[k] / c2;
         const bool turned = !ghosts && t->seen.sign[k] < 0;

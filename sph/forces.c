@@ -4,6 +4,7 @@
 
      continuity.h   rate of density             viscosity.h    artificial, Morris            diffusion.h    of density
      pressure.h     force of the pressure       stress.h       force of the stress, and the velocity gradient
+     density_gradient.h  what diffusion after Antuono takes off
      gradient.h     corrected gradients         reference.h    reference positions, contact of bodies
      shear.h        viscous stress              xsph.h         drift beside the velocity   pair_power.h   the books
      shift_sums.h   disorder                    energy.h       heat, sound of each particle
@@ -17,6 +18,7 @@
    a force evaluation. */
 #include "boundary.h"
 #include "continuity.h"
+#include "density_gradient.h"
 #include "diffusion.h"
 #include "energy.h"
 #include "factors.h"
@@ -48,10 +50,11 @@ typedef struct at_home {
     const sph_mirror_tile *mirror;
     const sph_stress_tile *stress;
     const sph_reference_tile *reference;
-    const sph_real *smoothed, *corrected, *sheared, *sounds, *widths;
+    const sph_real *smoothed, *corrected, *sheared, *sounds, *widths, *steepness;
     vreal wide;
     const sph_home *home;
     const sph_gradient_home *gradient;
+    const vreal *slope; /* G of density_gradient.c */
     const sph_shear_home *shear;
     const sph_energy_home *energy;
     const sph_stress_home *solid;
@@ -161,7 +164,7 @@ SPH_INLINE void pair(const at_home *o, bool wall, uint32_t j, vreal *s)
     if (sph_takes_forces(c))
         momentum(c, &p, s);
     sph_shear_force(c, o->home, o->mirror, o->shear, o->sheared, &p, s);
-    sph_diffusion(c, o->f, o->home, &p, s);
+    sph_diffusion(c, o->f, o->home, o->slope, o->steepness, &p, s);
     sph_heat(c, o->energy, &p, s);
     sph_xsph(c, o->home, &p, s);
     sph_pair_power(c, o->home, &p, s);
@@ -195,14 +198,21 @@ SPH_INLINE uint32_t sums_of(const sph_choice *c, bool wall)
     return (sph_takes_rates(c) ? rates : 0) | (sph_takes_forces(c) ? forces : 0);
 }
 
-/* what a form of solids wants to know of a home */
+/* what a form of solids, or diffusion after Antuono, wants to know of a home */
 typedef struct form_home {
+    vreal slope[SPH_DIM];
     sph_stabilised_home means;
     sph_normalised_home normal;
     sph_deform_home deform;
 } form_home;
 SPH_INLINE void spread_form(at_home *o, form_home *form, const sph_sim *sim, sph_thread *t, uint32_t h)
 {
+    SPH_UNROLL
+    for (uint32_t k = 0; k < SPH_DIM; k++)
+        form->slope[k] = v_set(0);
+    o->slope = form->slope;
+    if (SPH_IS(o->c->diffusion, ANTUONO) && !o->c->wall)
+        o->steepness = sph_spread_density_gradient(sim, t, h, form->slope);
     if (SPH_HAS_STABILISED) /* places, whether the scene has them or not */
         o->stabilised = sph_stabilised_of(sim, t);
     if (SPH_HAS_HOURGLASS)
@@ -395,6 +405,9 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
     X(r_w2_w, .kernel = SPH_WENDLAND_C2, .wall = 1, .part = SPH_PART_RATES)                                        \
     X(r_w2_h, .kernel = SPH_WENDLAND_C2, .diffusion = SPH_HYDROSTATIC, .part = SPH_PART_RATES)                     \
     X(r_w2_hw, .kernel = SPH_WENDLAND_C2, .diffusion = SPH_HYDROSTATIC, .wall = 1, .part = SPH_PART_RATES)         \
+    X(r_w2_d, .kernel = SPH_WENDLAND_C2, .diffusion = SPH_ANTUONO, .part = SPH_PART_RATES)                         \
+    X(f_w2_db, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .diffusion = SPH_ANTUONO, .books = 1,       \
+      .part = SPH_PART_FORCES)                                                                                     \
     X(r_cubic, .kernel = SPH_CUBIC, .part = SPH_PART_RATES)                                                        \
     X(f_w2, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .part = SPH_PART_FORCES)                       \
     X(f_w2_w, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .wall = 1, .part = SPH_PART_FORCES)          \
@@ -408,6 +421,10 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
     X(r_c_w, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .wall = 1, .part = SPH_PART_RATES)              \
     X(r_c_h, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .diffusion = SPH_HYDROSTATIC,                   \
       .part = SPH_PART_RATES)                                                                                      \
+    X(r_c_d, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .diffusion = SPH_ANTUONO,                       \
+      .part = SPH_PART_RATES)                                                                                      \
+    X(f_c_db, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                   \
+      .diffusion = SPH_ANTUONO, .books = 1, .part = SPH_PART_FORCES)                                               \
     X(r_c_hw, .kernel = SPH_WENDLAND_C2, .gradient = SPH_BONET_LOK, .diffusion = SPH_HYDROSTATIC, .wall = 1,       \
       .part = SPH_PART_RATES)                                                                                      \
     X(f_c, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                      \
@@ -416,6 +433,10 @@ SPH_APART void force_solid(const sph_choice *c, const sph_factors *f, const sph_
       .part = SPH_PART_FORCES)                                                                                     \
     X(f_c_hb, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                   \
       .diffusion = SPH_HYDROSTATIC, .books = 1, .part = SPH_PART_FORCES)                                           \
+    X(f_c_hbg, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .loses = 1, .part = SPH_PART_FORCES)                               \
+    X(f_c_hbwg, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                 \
+      .diffusion = SPH_HYDROSTATIC, .books = 1, .loses = 1, .wall = 1, .part = SPH_PART_FORCES)                    \
     X(f_c_hbw, .kernel = SPH_WENDLAND_C2, .viscosity = SPH_ARTIFICIAL, .gradient = SPH_BONET_LOK,                  \
       .diffusion = SPH_HYDROSTATIC, .books = 1, .wall = 1, .part = SPH_PART_FORCES)
 #define SPH_FAST_SHEAR_PARTS(X)                                                                                    \
@@ -597,6 +618,8 @@ static void find_fast_paths(const sph_sim *sim, sph_thread *t)
     for (uint32_t wall = 2; wall-- > 0;) {
         sph_choice c = choice_of(sim, wall);
         c.apart = SPH_HAS_APART && sph_asks_apart(sim);
+        if (wall && SPH_IS(c.diffusion, ANTUONO) && SPH_WITH_HYDROSTATIC)
+            c.diffusion = SPH_HYDROSTATIC; /* into walls there is none of either */
         t->fast_path[wall] = fast_path_of(&c);
         c.form = 0;
         t->fast_path[2] = SPH_HAS_STABILISED ? fast_path_of(&c) : 0;
@@ -609,18 +632,29 @@ static bool is_slack(const sph_sim *sim, const sph_thread *t, const sph_choice *
     return SPH_HAS_STABILISED && sph_stabilised(c) && !c->wall && !sph_is_drawn(sim, t, homes);
 }
 
+/* whether some wall moves, and so may move by another */
+static bool walls_move(const sph_sim *sim)
+{
+    bool moves = false;
+    for (uint32_t g = 0; g < SPH_MAX_GROUPS && SPH_WITH_MOVING_WALLS; g++)
+        moves |= sim->group[g].motion != NULL;
+    return moves;
+}
+
 /* Adds a tile to the homes' sums, in a general form, where no fast path has. A ghost whose density goes by continuity
-   sums over matter only; its acceleration is not used. */
+   sums over matter, and over the walls where one moves: a piston fills the room that the water before it leaves, or the
+   ghosts of a bed beside its foot would thin out and pull. Its acceleration is not used. */
 static void force_tile_any(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role, bool fast)
 {
     sph_choice c = choice_of(sim, role == SPH_ROLE_GHOST);
     const uint8_t diffusion = c.diffusion;
+    const bool meets = SPH_WITH_WALL_GHOST && walls_move(sim);
     const sph_factors *f = &sim->fac;
     c.apart = SPH_HAS_APART && sph_asks_apart(sim);
     c.form = is_slack(sim, t, &c, homes) ? 0 : c.form;
     for (uint32_t h = 0; h < homes; h++) {
         const bool matter = sph_is_matter(&sim->set[t->home_set[h]]);
-        if (matter ? fast : role != SPH_ROLE_FLUID)
+        if (matter ? fast : role != SPH_ROLE_FLUID && !(role == SPH_ROLE_GHOST && meets))
             continue;
         if (SPH_WITH_WALL_GHOST)
             c.diffusion = matter ? diffusion : (uint8_t)SPH_NO_DIFFUSION; /* density does not diffuse into walls */
@@ -664,6 +698,7 @@ static uint32_t columns_of(const sph_choice *c)
 {
     const bool forces = sph_takes_forces(c), gradient = c->gradient && (forces || !SPH_IS(c->gradient, BONET_LOK));
     return (SPH_HAS_LAYERED_WALLS && (sph_viscous(c->viscosity) || c->shear) ? 1u << SPH_COLUMN_mirror : 0) |
+           (SPH_IS(c->diffusion, ANTUONO) ? 1u << SPH_COLUMN_density_gradient : 0) |
            (c->shear ? 1u << SPH_COLUMN_shear : 0) | (SPH_WITH_ENERGY && c->energy ? 1u << SPH_COLUMN_energy : 0) |
            (sph_varies(c) ? 1u << SPH_COLUMN_wide : 0) | (c->hourglass ? 1u << SPH_COLUMN_deform : 0) |
            (sph_stabilised(c) ? 1u << SPH_COLUMN_drawn | 1u << SPH_COLUMN_means : 0) |

@@ -10,7 +10,7 @@
 
    A ghost has T = p/rho^2 I; with it K = B_i x_ij of the matter. Where a ghost is the home (its density goes by
    continuity) it has the plain gradient after Bonet & Lok, and the matter's B renormalised, so that the pair's two
-   works are of one K. Diffusion and Morris's viscosity keep the plain gradient. */
+   works are of one K; with another ghost the plain one. Diffusion and Morris's viscosity keep the plain gradient. */
 #ifndef SPH_GRADIENT_H
 #define SPH_GRADIENT_H
 
@@ -28,7 +28,8 @@ SPH_INLINE sph_gradient_home sph_spread_gradient(const sph_choice *what, const s
     const sph_config *const c = &sim->cfg;
     sph_gradient_home o;
     const bool ghost = SPH_WITH_WALL_GHOST && !sph_is_matter(&sim->set[t->home_set[h]]); /* has no place in the array */
-    const sph_real plain = !SPH_IS(c->gradient, BONET_LOK) ? 0 : sph_weak_scheme(c->scheme) ? 1 : 1 / t->home.rho[h];
+    const bool bonet = SPH_IS(c->gradient, BONET_LOK), whole = sph_weak_scheme(c->scheme) || !bonet;
+    const sph_real plain = !bonet && !what->wall ? 0 : whole ? 1 : 1 / t->home.rho[h];
     o.share = v_set(ghost ? 1 : (sph_real)0.5);
     SPH_UNROLL
     for (uint32_t k = 0; k < SPH_NT; k++) {
@@ -87,7 +88,11 @@ SPH_INLINE void sph_corrected_pressure(const sph_choice *c, const sph_home *o, c
     }
     if (!SPH_WITH_BOOKS || !c->books || !c->loses)
         return;
-    sph_symmetric_times(h->t, p->dx, a);
+    const vreal own = sph_weak_scheme(c->scheme) ? o->press : o->press * o->rho;
+    SPH_UNROLL
+    for (uint32_t k = 0; k < SPH_NT; k++)
+        sum[k] = h->n[k] * own; /* T without the guard, as the rate of density has it */
+    sph_symmetric_times(sum, p->dx, a);
     p->gain = sph_dot(p->dv, a) * w;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
-/* initial.c: initial fields: velocity and density by a function of position, density by hydrostatic pressure. Runs
-   between steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be right. */
+/* initial.c: initial fields: places, velocity and density by a function of position, density by hydrostatic pressure.
+   Runs between steps only; all or nothing: values wait in the buffer that is not in use until all were seen to be
+   right. */
 #include "setup.h"
 #include "arithmetic.h"
 
@@ -51,6 +52,42 @@ sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ct
         b->rho[0][i] = wait->rho[0][i];
     }
     sim->now.primed = false;
+    return SPH_OK;
+}
+
+/* Places wait in the other buffer, too; a place at the very end of the domain is the last inside it. */
+static sph_status place_particle(sph_sim *sim, const sph_buffer *b, const sph_buffer *wait, uint32_t i,
+                                 sph_place_fn fn, void *ctx)
+{
+    double x[SPH_DIM], to[SPH_DIM];
+    for (int k = 0; k < SPH_DIM; k++)
+        x[k] = to[k] = sim->cfg.lo[k] + (double)b->pos[k][i] * sim->grid.quantum;
+    fn(ctx, x, to);
+    for (int k = 0; k < SPH_DIM; k++) {
+        const double way = to[k] - sim->cfg.lo[k];
+        if (!(way >= 0 && way < sim->grid.length[k]))
+            return sph_setup_bad(sim, "position", "inside the domain, walls included", to[k]);
+        const sph_pos at = sph_setup_to_quanta(sim, way), last = sim->grid.extent[k] - 1;
+        wait->pos[k][i] = at < last ? at : last;
+    }
+    return SPH_OK;
+}
+
+sph_status sph_apply_positions(sph_sim *sim, uint32_t set, sph_place_fn fn, void *ctx)
+{
+    sph_status st = sph_setup_begin_adding(sim, "sph_apply_positions");
+    if (st || (st = sph_setup_check_body(sim, set)) != SPH_OK)
+        return st;
+    if (!fn)
+        return sph_setup_bad(sim, "fn", "a function", 0);
+    const sph_buffer *b = &sim->buf[sim->cur], *wait = &sim->buf[(sim->cur + 1) % sim->buffers];
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        if (b->set[0][i] == set && (st = place_particle(sim, b, wait, i, fn, ctx)) != SPH_OK)
+            return st;
+    for (uint32_t i = 0; i < sim->now.count; i++)
+        for (int k = 0; k < SPH_DIM && b->set[0][i] == set; k++)
+            b->pos[k][i] = wait->pos[k][i];
+    sim->table_valid = false;
     return SPH_OK;
 }
 

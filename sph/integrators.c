@@ -261,6 +261,7 @@ static const sph_pass pass_prime = {"settle", sph_local_chunks, prime_chunk, pri
         MODULE(SPH_HAS_CORRECTION, sph_pass_correction), MODULE(SPH_HAS_FLUID_GRADIENT, sph_pass_gradient),        \
         MODULE(SPH_HAS_STABILISED, sph_pass_rows), MODULE(SPH_HAS_STABILISED, sph_pass_means),                     \
         MODULE(SPH_HAS_NORMALISED, sph_pass_normal), MODULE(SPH_HAS_HOURGLASS, sph_pass_bonds),                    \
+        MODULE(SPH_WITH_ANTUONO, sph_pass_density_gradient),                                                       \
         MODULE(SPH_WITH_SHEAR, sph_pass_shear), MODULE(SPH_HAS_HAT, sph_pass_smooth),                              \
         MODULE(SPH_WITH_VARIABLE_H, sph_pass_smoothing_length), &sph_pass_force
 

@@ -175,7 +175,7 @@ struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
 /* room for the passes of the longest list that is in (integrators.c) */
-#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 64u : 48u)
+#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 72u : 48u)
 
 struct sph_sim {
     sph_config cfg;
@@ -255,7 +255,8 @@ struct sph_pass {
      SPH_WITH_ARTIFICIAL_APPROACHING << SPH_ARTIFICIAL_APPROACHING | SPH_WITH_MORRIS << SPH_MORRIS)
 #define SPH_DENSITIES_IN (1 << SPH_CONTINUITY | SPH_WITH_SUMMATION << SPH_SUMMATION)
 #define SPH_DIFFUSIONS_IN                                                                                   \
-    (1 << SPH_NO_DIFFUSION | SPH_WITH_MOLTENI << SPH_MOLTENI | SPH_WITH_HYDROSTATIC << SPH_HYDROSTATIC)
+    (1 << SPH_NO_DIFFUSION | SPH_WITH_MOLTENI << SPH_MOLTENI | SPH_WITH_HYDROSTATIC << SPH_HYDROSTATIC |    \
+     SPH_WITH_ANTUONO << SPH_ANTUONO)
 #define SPH_INTEGRATORS_IN                                                                                  \
     (SPH_WITH_PREDICTOR_CORRECTOR << SPH_PREDICTOR_CORRECTOR | SPH_WITH_KICK_DRIFT_KICK << SPH_KICK_DRIFT_KICK | \
      SPH_WITH_LEAP_FROG << SPH_LEAP_FROG | SPH_WITH_RUNGE_KUTTA << SPH_RUNGE_KUTTA |                        \
@@ -296,7 +297,11 @@ SPH_INLINE bool sph_viscous(uint32_t v)
 {
     return SPH_IS(v, ARTIFICIAL) || SPH_IS(v, ARTIFICIAL_APPROACHING) || SPH_IS(v, MORRIS);
 }
-SPH_INLINE bool sph_diffusive(uint32_t d) { return SPH_IS(d, MOLTENI) || SPH_IS(d, HYDROSTATIC); }
+SPH_INLINE bool sph_diffusive(uint32_t d)
+{
+    return SPH_IS(d, MOLTENI) || SPH_IS(d, HYDROSTATIC) || SPH_IS(d, ANTUONO);
+}
+SPH_INLINE bool sph_takes_density_gradient(const sph_config *c) { return SPH_IS(c->diffusion, ANTUONO); }
 SPH_INLINE bool sph_sums_density(const sph_config *c) { return SPH_IS(c->density, SUMMATION); }
 SPH_INLINE bool sph_keeps_books(const sph_config *c) { return SPH_WITH_BOOKS && c->books; }
 SPH_INLINE bool sph_uses_xsph(const sph_config *c) { return SPH_WITH_XSPH && c->xsph != 0; }
@@ -309,6 +314,14 @@ SPH_INLINE bool sph_has_any_mirrors(const sph_config *c)
 {
     return sph_has_mirrors(c, 0) || (SPH_DIM > 1 && sph_has_mirrors(c, SPH_DIM > 1)) ||
            (SPH_DIM > 2 && sph_has_mirrors(c, SPH_DIM - 1));
+}
+/* faces in which what is heavier below is seen upside down */
+SPH_INLINE bool sph_turns_upside_down(const sph_config *c)
+{
+    bool turns = false;
+    for (uint32_t k = 0; k < SPH_DIM && SPH_HAS_MIRRORS; k++)
+        turns |= sph_has_mirrors(c, k) && c->gravity[k] != 0;
+    return turns;
 }
 SPH_INLINE bool sph_quiets(const sph_config *c) { return SPH_WITH_DAMPER && c->damper > 0; }
 SPH_INLINE bool sph_slows(const sph_config *c) { return SPH_WITH_DAMPING_RATE && c->damping_rate > 0; }
@@ -352,6 +365,7 @@ SPH_INLINE double sph_largest_h(const sph_config *c)
     return sph_varies_h(c) ? c->h_max * c->smoothing_length : c->smoothing_length;
 }
 SPH_INLINE bool sph_corrects_fluids(const sph_config *c) { return SPH_HAS_FLUID_GRADIENT && c->gradient != SPH_PLAIN; }
+SPH_INLINE bool sph_guards_gradient(const sph_config *c) { return SPH_IS(c->gradient, BONET_LOK) && c->gradient_guard; }
 SPH_INLINE bool sph_yields(const sph_config *c) { return SPH_HAS_YIELD && c->yield != SPH_NO_YIELD; }
 SPH_INLINE bool sph_damages(const sph_config *c) { return SPH_HAS_DAMAGE && c->damage != SPH_NO_DAMAGE; }
 SPH_INLINE bool sph_repels(const sph_config *c)

@@ -39,6 +39,7 @@
     X(SEVERAL_FLUIDS, 1) /* sets of another rest density, sound, eos than the configuration's */           \
     X(MOLTENI, 1) /* density diffusion */                                                                  \
     X(HYDROSTATIC, 1)                                                                                      \
+    X(ANTUONO, 1) /* with renormalised gradients of density */                                             \
     X(BONET_LOK, 1) /* corrected gradients of fluids */                                                    \
     X(RENORMALISED, 1)                                                                                     \
     X(SHEAR, 1) /* viscous stress of fluids: nested gradients, large eddies */                             \
@@ -110,10 +111,10 @@ enum { SPH_KNOBS(SPH_KNOB_IN) SPH_KNOBS_END };
 #define SPH_WITH_SMAGORINSKY SPH_WITH_SHEAR
 #define SPH_WITH_SMAGORINSKY_WICK SPH_WITH_SHEAR
 #define SPH_WITH_IDEAL_GAS SPH_WITH_ENERGY
-#define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC)
+#define SPH_HAS_DIFFUSION (SPH_WITH_MOLTENI || SPH_WITH_HYDROSTATIC || SPH_WITH_ANTUONO)
 #define SPH_HAS_BOUNDED (SPH_HAS_DIFFUSION || SPH_WITH_SHIFTING) /* volumes with a bound (tiles.c) */
 /* sums that depend on whom they meet: another material, or an image of what is heavier below */
-#define SPH_HAS_APART (SPH_WITH_SEVERAL_FLUIDS || (SPH_WITH_HYDROSTATIC && SPH_HAS_MIRRORS))
+#define SPH_HAS_APART (SPH_WITH_SEVERAL_FLUIDS || ((SPH_WITH_HYDROSTATIC || SPH_WITH_ANTUONO) && SPH_HAS_MIRRORS))
 #define SPH_HAS_XSPH_VELOCITY (SPH_WITH_XSPH && SPH_WITH_XSPH_VELOCITY)
 #define SPH_HAS_FILTERS (SPH_WITH_SHEPARD || SPH_WITH_SUMMATION)
 #define SPH_HAS_EXTRAS (SPH_WITH_XSPH || SPH_WITH_BODY_FORCE || SPH_WITH_BOOKS) /* beside forces, in the same sweep */

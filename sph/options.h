@@ -97,12 +97,14 @@
     P(A, subgrid, REAL, 0.0066, 0, 10, true, "0 .. 10", FIXED, "-",                                                    \
       "C_I of the eddies' pressure", "ci", "-", 0, 10, USUAL)                                                         \
     P(A, diffusion, CHOICE, SPH_NO_DIFFUSION, 0, SPH_DIFFUSIONS, SPH_DIFFUSIONS_IN,                                   \
-      "one of SPH_NO_DIFFUSION .. SPH_HYDROSTATIC", FIXED, "-", "density diffusion: none molteni hydrostatic",        \
+      "one of SPH_NO_DIFFUSION .. SPH_ANTUONO", FIXED, "-", "density diffusion: none molteni hydrostatic antuono",    \
       "diffusion", "-", 0, SPH_DIFFUSIONS - 1, OWN)                                                                   \
     P(A, delta, REAL, 0.1, 0, 10, true, "0 .. 10", FIXED, "-", "strength of the density diffusion",                   \
       "delta", "-", 0, 10, OWN)                                                                                     \
     P(A, gradient, CHOICE, SPH_PLAIN, 0, SPH_GRADIENTS, SPH_GRADIENTS_IN, "one of SPH_PLAIN .. SPH_RENORMALISED",     \
       FIXED, "-", "gradients of fluids: plain bonet_lok renormalised", "gradient", "-", 0, SPH_GRADIENTS - 1, USUAL)  \
+    P(A, gradient_guard, BOOL, false, 0, 1, SPH_WITH_BONET_LOK, "false or true", FIXED, "-",                          \
+      "plain force of the pressure in the row at a surface: no yes", "guard", "-", 0, 1, USUAL)                       \
     P(A, xsph, REAL, 0, 0, 1, SPH_WITH_XSPH, "0 .. 1", FIXED, "-", "XSPH factor; 0: off", /* usual: 0.5; Gray 2.22 */ \
       "xsph", "-", 0, 1, USUAL)                                                                                       \
     P(A, shepard_every, WHOLE, 0, 0, 4294967296.0f, SPH_WITH_SHEPARD, "a whole number", FIXED, "steps",               \

@@ -27,6 +27,9 @@
 #define sph_pass_smooth SPH_NAME(pass_smooth_)
 #define sph_pass_gradient SPH_NAME(pass_gradient_)
 #define sph_pass_shear SPH_NAME(pass_shear_)
+/* density_gradient.c */
+#define sph_pass_density_gradient SPH_NAME(pass_density_gradient_)
+extern const sph_pass sph_pass_density_gradient;
 /* smoothing_length.c: smoothing_length.h */
 /* stabilised.c, normalised.c, hourglass.c */
 #define sph_pass_edge SPH_NAME(pass_edge_)

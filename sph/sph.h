@@ -214,16 +214,21 @@ enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH
    to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi = (rho_j -
    rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
    two positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so still
-   water stays still. Of sets with sound speeds of their own (sph_fluid) diffusion takes the set's, artificial
-   viscosity the mean of both. */
-enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_DIFFUSIONS };
+   water stays still. ANTUONO: the mean of the two particles' renormalised gradients of density (kg/m^4) times
+   r_ji is taken off, so that no linear field of density feels any, whatever made it (Antuono, Colagrossi, Marrone &
+   Molteni 2010); images in faces across which gravity pulls have no part in it; SPH_DIM reals a particle
+   (SPH_USE_ANTUONO) and a sweep; not with solids. Of sets with sound speeds of their own (sph_fluid) diffusion takes
+   the set's, artificial viscosity the mean of both. */
+enum { SPH_NO_DIFFUSION, SPH_MOLTENI, SPH_HYDROSTATIC, SPH_ANTUONO, SPH_DIFFUSIONS };
 
 /* Gradients of fluids (scenes without solids). PLAIN: g x_ij. BONET_LOK: exact for linear velocities in the rate of
    density, and the pressure force that does the same work (Bonet & Lok 1999; schemes STANDARD and WEAK); momentum,
    angular momentum and energy stay. RENORMALISED: (B_i + B_j)/2 x_ij g in continuity, pressure and artificial
    viscosity (Wickramarachchi 2009 eqs 4.8-4.20); momentum and energy stay. Both cost a sweep and SPH_DIM (SPH_DIM +
    1)/2 reals a particle; where neighbours do not span space the plain gradient is taken. Still water without viscosity
-   is stirred beside its surface (README, findings). */
+   is stirred beside its surface (README, findings) but with gradient_guard (BONET_LOK): there the force of the pressure
+   becomes the plain one where det E, E = M/rho, falls from 0.6 to 0.3, as in the outermost row; rates of density and
+   what is exact of them stay, momentum too; the energy that is not kept is on the books (`unbalanced`). */
 enum { SPH_PLAIN, SPH_BONET_LOK, SPH_RENORMALISED, SPH_GRADIENTS };
 
 /* How the density is made anew every shepard_every steps, or each time that filter_period (s) has passed (not beside
@@ -405,6 +410,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
 #define SPH_USE_EDGES 65536u /* edges that let waves out, with a matched layer or without */
 #define SPH_USE_FORMS 131072u /* SPH_STABILISED, SPH_NORMALISED, SPH_NORMALISED_CORRECTED, or hourglass */
 #define SPH_USE_VARIABLE_H 1048576u /* a smoothing length of each particle */
+#define SPH_USE_ANTUONO 8388608u /* density diffusion after Antuono */
 #define SPH_REAL_ (SPH_DOUBLE ? 8u : 4u)
 #define SPH_STRESSES (SPH_DIM == 1 ? 1u : SPH_DIM == 2 ? 3u : 5u) /* components kept of the deviatoric stress */
 #define SPH_SOLID_BYTES_(use)                                                                               \
@@ -422,6 +428,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
      (((use)&SPH_USE_FILTER) ? (SPH_DOUBLE ? 8u : 4u) : 0u) +                                               \
      SPH_SOLID_BYTES_(use) * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) +                                      \
      (((use)&SPH_USE_SHEAR) ? (SPH_DIM * SPH_DIM + 1u) * SPH_REAL_ : 0u) +                                  \
+     (((use)&SPH_USE_ANTUONO) ? SPH_DIM * SPH_REAL_ : 0u) +                                                 \
      (((use)&SPH_USE_ENERGY) ? 2u * SPH_REAL_ * (((use)&SPH_USE_RUNGE_KUTTA) ? 3u : 2u) : 0u) +             \
      (((use)&SPH_USE_FORMS) ? (SPH_DIM * SPH_DIM + SPH_DIM + 2u) * SPH_REAL_ : 0u) +                        \
      (((use)&SPH_USE_VARIABLE_H) ? SPH_REAL_ : 0u) +                                                        \
@@ -445,6 +452,8 @@ size_t sph_arena_bytes(const sph_config *cfg);
     ((SPH_DIM == 1 ? 3072u : SPH_DIM == 2 ? 12288u : 49152u) * (SPH_DOUBLE ? 2u : 1u))
 #define SPH_SHEAR_SCRATCH_BYTES /* with a viscous stress besides */                                          \
     ((SPH_DIM * SPH_DIM + 1u) * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_)
+#define SPH_ANTUONO_SCRATCH_BYTES /* with that diffusion besides */                                          \
+    (SPH_DIM * (SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_ + 64u)
 #define SPH_ENERGY_SCRATCH_BYTES /* with the energy equation besides */                                     \
     ((SPH_DIM == 1 ? 112u : SPH_DIM == 2 ? 192u : 536u) * SPH_REAL_ + 64u)
 #define SPH_FORMS_SCRATCH_BYTES /* with such a form besides */                                              \
@@ -453,6 +462,7 @@ size_t sph_arena_bytes(const sph_config *cfg);
     (SPH_FIXED_BYTES + (size_t)(threads) * (SPH_SCRATCH_BYTES + 128u) +                                     \
      (((use)&SPH_USE_SOLID) ? (size_t)(threads) * (SPH_SOLID_SCRATCH_BYTES + 64u) + 8192u : 0u) +           \
      (((use)&SPH_USE_SHEAR) ? (size_t)(threads) * SPH_SHEAR_SCRATCH_BYTES : 0u) +                            \
+     (((use)&SPH_USE_ANTUONO) ? (size_t)(threads) * SPH_ANTUONO_SCRATCH_BYTES : 0u) +                        \
      (((use)&SPH_USE_ENERGY) ? (size_t)(threads) * SPH_ENERGY_SCRATCH_BYTES : 0u) +                          \
      (((use)&SPH_USE_VARIABLE_H) ? (size_t)(threads) * SPH_ENERGY_SCRATCH_BYTES : 0u) + /* as large */       \
      (((use)&SPH_USE_FORMS) ? (size_t)(threads) * SPH_FORMS_SCRATCH_BYTES : 0u) +                            \
@@ -720,6 +730,14 @@ typedef void (*sph_field_fn)(void *ctx, const double *x, double *v, double *rho)
 #define sph_apply_field SPH_NAME(apply_field)
 sph_status sph_apply_field(sph_sim *sim, uint32_t set, sph_field_fn fn, void *ctx);
 
+/* Moves the particles of a set before sph_ready, each by a function of its position: lattices that follow a surface, or
+   a small push against rows that band together (Gray 2001, section 3.1). Masses, velocities, densities and ids stay: a
+   map that keeps volumes keeps the room that masses need; fields that are to be of the new places are applied after it.
+   Reference positions of solids are the new ones. All must end inside the domain. All or nothing. */
+typedef void (*sph_place_fn)(void *ctx, const double *x, double *to); /* m; `to` is x when it is called */
+#define sph_apply_positions SPH_NAME(apply_positions)
+sph_status sph_apply_positions(sph_sim *sim, uint32_t set, sph_place_fn fn, void *ctx);
+
 /* Sets the energy u (J/kg, >= 0) of a set's particles likewise (option `energy`). All or nothing. */
 #if SPH_WITH_ENERGY
 typedef void (*sph_energy_fn)(void *ctx, const double *x, double *u);
@@ -833,8 +851,8 @@ sph_status sph_step_to(sph_sim *sim, double t_end);
                 beforehand. So has the first after a step that failed or was given up, and after a restore.
      a step     at most E (3^DIM c n + cells + 32) + 28 n + 4 cells units. E counts its sweeps: 1 for the forces (2
                 for all integrators but the predictor-corrector), as many again with Adami walls, with SPH_CORRECTED
-                or SPH_TOTAL, with xsph_strain, with gradients of fluids, with a viscous stress, with normalised
-                kernels and with hourglass, twice as many with SPH_STABILISED; 1 each for the
+                or SPH_TOTAL, with xsph_strain, with gradients of fluids, with a viscous stress, with SPH_ANTUONO,
+                with normalised kernels and with hourglass, twice as many with SPH_STABILISED; 1 each for the
                 density filter and summation (with Runge-Kutta 2 and 4: with the latter it sorts once more).
    Passes without chunks (starting a sort, walls that move) are not counted. sph_get_usage tells the largest so far. */
 #define sph_step_slice SPH_NAME(step_slice)

@@ -30,6 +30,7 @@ typedef struct bits_case {
     bool bed;                             /* walls by a polyline: a box in 1-D and 3-D */
     uint32_t motion;                      /* of a wall that moves: CASE_... */
     bool energy;
+    bool guard;                           /* of corrected gradients */
     uint32_t edge, layer;                 /* SPH_EDGE_...; thickness of the matched layer, spacings */
     bool widths;                          /* a smoothing length of each particle */
 } bits_case;
@@ -225,6 +226,19 @@ static const bits_case bits_cases[] = {
      .integrator = SPH_KICK_DRIFT_KICK},
     {"heat_of_morris", .kernel = SPH_WENDLAND_C2, .viscosity = SPH_MORRIS, .wall = SPH_WALL_GHOST, .slip_less = true,
      .compressible = true, .energy = true, .gradient = SPH_BONET_LOK},
+    /* density diffusion after Antuono */
+    {"antuono", CASE_BASE, .diffusion = SPH_ANTUONO, .books = true},
+    {"antuono_kick_drift_kick", CASE_BASE, .diffusion = SPH_ANTUONO, .integrator = SPH_KICK_DRIFT_KICK,
+     .gradient = SPH_BONET_LOK, .floor = true, .books = true},
+    {"antuono_weak_symmetry", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST,
+     .diffusion = SPH_ANTUONO, .scheme = SPH_WEAK, .face = SPH_SYMMETRY, .integrator = SPH_RUNGE_KUTTA},
+    {"antuono_periodic", CASE_BASE, .diffusion = SPH_ANTUONO, .face = SPH_PERIODIC, .integrator = SPH_LEAP_FROG},
+    {"antuono_no_slip", CASE_BASE, .diffusion = SPH_ANTUONO, .face = SPH_MIRROR_NO_SLIP},
+    /* the guard of corrected gradients */
+    {"guard_kick_drift_kick", CASE_BASE, .gradient = SPH_BONET_LOK, .guard = true, .integrator = SPH_KICK_DRIFT_KICK,
+     .diffusion = SPH_HYDROSTATIC, .books = true},
+    {"guard_weak_symmetry", .kernel = SPH_CUBIC, .viscosity = SPH_ARTIFICIAL, .wall = SPH_WALL_GHOST, .guard = true,
+     .gradient = SPH_BONET_LOK, .scheme = SPH_WEAK, .face = SPH_SYMMETRY, .floor = true},
     /* edges that let waves out */
 #define CASE_EDGE .kernel = SPH_CUBIC, .wall = CASE_NO_WALL, .integrator = SPH_KICK_DRIFT_KICK
     {"edge_natural", CASE_EDGE, .solid = SPH_TOTAL, .edge = SPH_EDGE_NATURAL, .books = true},
@@ -323,6 +337,7 @@ static sph_config case_config(const bits_case *b)
     c.beta = 0.1;
     c.diffusion = b->diffusion;
     c.gradient = b->gradient;
+    c.gradient_guard = b->guard;
     c.shear = b->shear;
     c.hourglass = b->hourglass ? 0.1 : 0;
     c.integrator = b->integrator;

@@ -5,8 +5,9 @@
      count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
                             total: its block of a solid; plain, stabilised: that block with Powell's kernel (2012);
                             tight, empty: its block of water, in a domain that fits and in much room; default, no_books,
-                            large_eddies, shifting, damper: the scene dam_break or dam_break_3d as it is, without books,
-                            with large eddies, with its particles shifted, with the damper */
+                            large_eddies, shifting, damper, antuono: the scene dam_break or dam_break_3d as it is, without
+                            books, with large eddies, with its particles shifted, with the acoustic damper, with density
+                            diffusion after Antuono */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 
@@ -26,6 +27,15 @@ static void as_powell(sph_config *c)
     c->kernel = SPH_CUBIC;
     c->smoothing_length = 1.3;
     c->integrator = SPH_KICK_DRIFT_KICK;
+}
+
+static void antuono(double *p)
+{
+#ifdef SPH_WITH_ANTUONO
+    p[SCENE_OF_diffusion] = SPH_ANTUONO;
+#else
+    (void)p;
+#endif
 }
 
 static void large_eddies(double *p)
@@ -56,6 +66,8 @@ static tank scene_tank(const char *name, uint32_t n, const char *how)
 #ifdef SPH_WITH_DAMPER
     p[SCENE_OF_damper] = strcmp(how, "damper") == 0 ? 0.2 : 0;
 #endif
+    if (strcmp(how, "antuono") == 0)
+        antuono(p);
     if (strcmp(how, "large_eddies") == 0)
         large_eddies(p);
     s->configure(p, &c);
@@ -75,7 +87,7 @@ int main(int argc, char **argv)
     tank t;
     if (argc != 4) {
         fprintf(stderr, "usage: count bench|corrected|elastic|total|plain|stabilised|tight|empty|default|no_books|"
-                        "large_eddies|shifting|damper N STEPS\n");
+                        "large_eddies|shifting|damper|antuono N STEPS\n");
         return 2;
     }
     const uint32_t n = (uint32_t)strtoul(argv[2], NULL, 10), steps = (uint32_t)strtoul(argv[3], NULL, 10);

@@ -5,8 +5,8 @@
 # Repeats exactly. Targets: at most 1 % more than tests/results/count_base.csv; of that, the bench set-up in 2-D may
 # take 0.85, a default dam break 0.52 (double 0.58), in 3-D 0.40 (0.55 without books), the bench set-up in 3-D 0.65
 # (double 0.70); of another row of the same run: few particles in much room 1.30 of the same in little; corrected
-# gradients 1.8, large eddies 1.5, shifting 1.35 of the same set-up without them (corrected in 3-D
-# 2.0: plain water takes two thirds since its neighbours are sifted, corrected water sifts twice).
+# gradients 1.8, large eddies 1.5, diffusion after Antuono 1.6, shifting 1.35 of the same set-up without them (corrected
+# in 3-D 2.0: plain water takes two thirds since its neighbours are sifted, corrected water sifts twice).
 # Writes BUILD/count.csv; the base is for the gcc named in it, with another one compare two checkouts:
 #   sh tests/count.sh     sh tests/count.sh --against DIR   ratios to the kernel of another checkout
 #   ROWS="NAME NAME" sh tests/count.sh   these only
@@ -50,6 +50,7 @@ shifting_2d|2f|shifting|60|2|8|1.35|dam_break_2d
 damper_2d|2f|damper|60|2|8|1.35|dam_break_2d
 plain_2d|2f|plain|60|2|8|1.00|plain_2d
 stabilised_2d|2f|stabilised|60|2|8|1.50|plain_2d
+antuono_2d|2f|antuono|60|2|8|1.60|dam_break_2d
 shifting_3d|3f|shifting|16|1|3|1.35|dam_break_3d
 END
 }

@@ -55,7 +55,7 @@ static UNUSED void scene_solids(sph_config *c)
     c->solid = SPH_UPDATED + scene_draw(3);
     c->scheme = scene_one_in(3) ? SPH_WEAK : SPH_STANDARD;
     c->eos = SPH_TAIT;
-    c->diffusion = scene_draw(SPH_DIFFUSIONS);
+    c->diffusion = scene_draw(SPH_ANTUONO); /* which is of fluids alone */
     c->yield = scene_draw(SPH_YIELDS);
     c->damage = SPH_DIM > 1 ? scene_draw(SPH_DAMAGES) : 0;
     c->max_flaws = 20000;

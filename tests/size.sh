@@ -21,7 +21,7 @@ WATER_CALLS="config_default arena_bytes init get_usage last add_fluid add_box wa
     step_to step_slice step_cancel get_step time count get hash"
 SELDOM="${w}SHIFTING=0 ${w}SHEAR=0 ${w}MLS=0 ${w}ENERGY=0 ${w}FLOW=0 ${w}EDGES=0"
 SELDOM="$SELDOM ${w}ONE_SIDED=0 ${w}STABILISED=0 ${w}NORMALISED=0 ${w}HOURGLASS=0 ${w}DAMPER=0"
-SELDOM="$SELDOM ${w}DAMPING_RATE=0 ${w}XSPH_VELOCITY=0"
+SELDOM="$SELDOM ${w}DAMPING_RATE=0 ${w}XSPH_VELOCITY=0 ${w}ANTUONO=0"
 WATER_LIMIT=25600 STACK_LIMIT=2048 HOST_STACK_LIMIT=8192
 out=$BUILD/size.csv dir=$BUILD/size stacks=$BUILD/stack.csv committed=tests/results/size.csv
 

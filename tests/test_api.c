@@ -137,7 +137,7 @@ static void a_module_that_is_not_chosen_adds_nothing_to_the_arena(void **state)
         ADDS(scheme, k, 0);
     for (uint32_t k = 0; k < SPH_IDEAL_GAS; k++)
         ADDS(eos, k, 0);
-    for (uint32_t k = 0; k < SPH_DIFFUSIONS; k++)
+    for (uint32_t k = 0; k < SPH_ANTUONO; k++)
         ADDS(diffusion, k, 0);
     ADDS(viscosity, SPH_INVISCID, 0);
     ADDS(viscosity, SPH_ARTIFICIAL_APPROACHING, 0);

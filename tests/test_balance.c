@@ -19,7 +19,7 @@
 typedef struct scene {
     uint32_t scheme, viscosity, diffusion, gradient, density, eos, shear, face; /* face: of the last axis */
     uint32_t wall;            /* SPH_WALL_... + 1, 0: none */
-    bool compressible, no_slip, floor_, xsph;
+    bool compressible, no_slip, floor_, xsph, guard;
     uint32_t solid, repulsion; /* solid: a block beside another, or beside a fluid */
     bool damage, hat, held, fluid;
 } scene;
@@ -53,6 +53,7 @@ static sph_config config_of(const scene *s)
     c.nu = 0.05;
     c.diffusion = s->diffusion;
     c.gradient = s->gradient;
+    c.gradient_guard = s->guard;
     c.shear = s->shear;
     c.smagorinsky = 1.5;
     c.subgrid = 0.5;
@@ -240,7 +241,7 @@ static void check(const scene *s)
     }
     /* forms that conserve energy are not charged with anything */
     const bool conserves = s->scheme <= SPH_WEAK && s->face != SPH_MIRROR_NO_SLIP && !s->xsph && !s->solid &&
-        (s->density == SPH_CONTINUITY || s->scheme == SPH_STANDARD);
+        !s->guard && (s->density == SPH_CONTINUITY || s->scheme == SPH_STANDARD);
     assert_true(!conserves || (sim->now.power[POWER_UNBALANCED] >= 0 && sim->now.power[POWER_UNBALANCED] <= 0));
     assert_int_equal(free_sims(NULL), 0);
 }
@@ -265,11 +266,12 @@ static void choose_wall(scene *s, uint32_t w)
 }
 
 /* what a fluid may have besides */
-enum { EXTRAS = 8 };
+enum { EXTRAS = 10 };
 static bool choose_extra(scene *s, uint32_t e)
 {
-    s->diffusion = e == 1 ? SPH_MOLTENI : e == 2 ? SPH_HYDROSTATIC : SPH_NO_DIFFUSION;
-    s->gradient = e == 3 ? SPH_BONET_LOK : e == 4 ? SPH_RENORMALISED : SPH_PLAIN;
+    s->diffusion = e == 1 ? SPH_MOLTENI : e == 2 ? SPH_HYDROSTATIC : e == 8 ? SPH_ANTUONO : SPH_NO_DIFFUSION;
+    s->guard = e == 9;
+    s->gradient = e == 3 || e == 9 ? SPH_BONET_LOK : e == 4 ? SPH_RENORMALISED : SPH_PLAIN;
     s->xsph = e == 5;
     s->eos = e == 6 ? SPH_ISOTHERMAL : e == 7 ? SPH_LINEAR : SPH_TAIT;
     s->floor_ = e == 7 || e == 1;

@@ -440,6 +440,44 @@ static void a_flat_walls_length(void **state)
 
 /* ---- fields ---- */
 
+/* all of a set or nobody is moved: what would end outside is named; others, their densities and velocities stay */
+static void to_place(void *ctx, const double *x, double *to)
+{
+    const double *by = ctx;
+    for (int k = 0; k < SPH_DIM; k++)
+        to[k] = x[k] * by[0] + by[1];
+}
+static void particles_are_moved_all_or_none(void **state)
+{
+    sph_config c = config();
+    uint32_t set, other;
+    double x[SPH_DIM], y[SPH_DIM], half[2] = {0.5, 0.01}, out[2] = {1, 0};
+    (void)state;
+    sph_sim *sim = with_fluid(&c, &set);
+    must(sim, sph_add_fluid(sim, NULL, &other));
+    for (int k = 0; k < SPH_DIM; k++) {
+        x[k] = c.lo[k] + 0.125 * (c.hi[k] - c.lo[k]);
+        y[k] = c.lo[k] + 0.25 * (c.hi[k] - c.lo[k]);
+    }
+    must(sim, sph_add_particle(sim, set, x, y, 1010, NULL));
+    must(sim, sph_add_particle(sim, other, y, NULL, 0, NULL));
+    must(sim, sph_add_particle(sim, set, y, NULL, 0, NULL));
+    out[1] = c.hi[0] - y[0];
+    told(sim, sph_apply_positions(sim, set, to_place, out), "position", "inside the domain", c.hi[0]);
+    close_to(by_id(sim, 0).x[0], x[0], 1e-5);
+    told(sim, sph_apply_positions(sim, set, NULL, NULL), "fn", "function", 0);
+    told(sim, sph_apply_positions(sim, 7, to_place, half), "set", "sph_add_fluid", 7);
+    must(sim, sph_apply_positions(sim, set, to_place, half));
+    for (int k = 0; k < SPH_DIM; k++) {
+        close_to(by_id(sim, 0).x[k], 0.5 * x[k] + 0.01, 1e-5);
+        close_to(by_id(sim, 1).x[k], y[k], 1e-5);
+        close_to(by_id(sim, 0).v[k], y[k], 1e-5);
+    }
+    close_to(by_id(sim, 0).rho, 1010, 1e-3);
+    must(sim, sph_ready(sim));
+    assert_int_equal(sph_apply_positions(sim, set, to_place, half), SPH_BAD_STATE);
+}
+
 static double given_rho, given_v;
 static void give(void *ctx, const double *x, double *v, double *rho)
 {
@@ -503,6 +541,7 @@ int main(void)
         subject(a_shapes_numbers),
         subject(a_walls_numbers),
         subject(a_fields_numbers),
+        subject(particles_are_moved_all_or_none),
     };
     return run_subjects("bounds", list);
 }

@@ -610,6 +610,25 @@ static void row_apply_energy(void)
         refused(sph_apply_energy(bed.sim, w, NULL, NULL));
     }
 }
+static void no_place(void *ctx, const double *x, double *to)
+{
+    (void)x;
+    to[0] = *(const double *)ctx;
+}
+static void row_apply_positions(void)
+{
+    double to = 1e30;
+    no_sim(sph_apply_positions(NULL, 0, no_place, &to));
+    EACH_WORD(w) {
+        refused(sph_apply_positions(bed.sim, w, no_place, &to));
+        refused(sph_apply_positions(bed.sim, w, NULL, NULL));
+    }
+    EACH_NUMBER(x) {
+        to = x;
+        if (!finite(x) || x > 1e6 || x < -1e6)
+            refused(sph_apply_positions(bed.sim, 0, no_place, &to));
+    }
+}
 static void row_find_edges(void)
 {
     sph_edges e = {0};
@@ -1169,6 +1188,7 @@ static const row rows[] = {
     ROW(add_flaws), ROW(get_flaws),
 #endif
     ROW(add_inflow), ROW(add_outflow), ROW(apply_energy), ROW(find_edges), ROW(set_edge), ROW(get_edge),
+    ROW(apply_positions),
     ROW(add_shape), ROW(apply_field), ROW(apply_hydrostatic), ROW(motion_table), ROW(motion_steady), ROW(wall_default),
     ROW(motion_programme), ROW(spline_make), ROW(motion_spline),
     ROW(add_wall_box),

@@ -5,6 +5,7 @@
 
 #include "examples/scenes/soliton.h"
 #include "examples/scenes/track.h"
+#include "examples/scenes/waves.h"
 #include "tools/table.h"
 
 static double cell(const table *t, uint32_t row, const char *name)
@@ -252,6 +253,45 @@ static void heights_and_fronts_stand_where_the_water_does(void **state)
     close_to(track_at_wall(block(0, 0), 10, -1, 0.2), 1, 0.05);
 }
 
+/* a lattice of a tank 4 m long and 1 m deep that follows a surface of amplitude 0.2 m */
+static double ripple(const void *of, double x)
+{
+    (void)of;
+    return 0.2 * cos(3.14159265358979 * x);
+}
+static void a_lattice_follows_a_surface_and_keeps_its_volumes(void **state)
+{
+    const double lo[2] = {0, 0}, hi[2] = {4, 1}, dx = 0.05;
+    const wave_surface w = {0, 1, dx, ripple, NULL};
+    sph_config c = open_config(4, dx);
+    double before = 0, moment = 0;
+    uint32_t set;
+    (void)state;
+    sph_sim *sim = new_sim(&c);
+    must(sim, sph_add_fluid(sim, NULL, &set));
+    must(sim, sph_add_box(sim, set, lo, hi, NULL));
+    must(sim, wave_follow(sim, set, &w));
+    for (uint32_t i = 0; i < 20 * 80; i++) {
+        const sph_particle p = by_id(sim, i);
+        const double above = p.x[1] / (1 + ripple(NULL, p.x[0])) / dx - 0.5;
+        close_to(above, floor(above + 0.5), 1e-4); /* of rows 0 .. 19, each by as much of the depth */
+        const double x = p.x[0] + 0.2 / 3.14159265358979 * sin(3.14159265358979 * p.x[0]); /* where it was */
+        close_to(x / dx - 0.5, floor(x / dx), 1e-4);
+        before += x;
+        moment += cos(3.14159265358979 * p.x[0]);
+    }
+    close_to(before / (20 * 80), 2, 1e-5);
+    close_to(2 * moment / (20 * 80), 0.2, 1e-3); /* the amplitude that the masses have */
+    must(sim, wave_push(sim, set, dx, 0.1 * dx));
+    double most = 0;
+    for (uint32_t i = 0; i < 20 * 80; i++) {
+        const sph_particle p = by_id(sim, i);
+        const double above = p.x[1] / (1 + ripple(NULL, p.x[0])) / dx - 0.5;
+        most = fmax(most, fabs(above - floor(above + 0.5)));
+    }
+    assert_true(most > 0.05 && most < 0.2);
+}
+
 int main(void)
 {
     const struct CMUnitTest list[] = {
@@ -263,6 +303,7 @@ int main(void)
         subject(water_at_rest_is_level_up_to_both_ends),
         subject(the_face_of_a_wave_is_seen_to_lean_as_it_does),
         subject(heights_and_fronts_stand_where_the_water_does),
+        subject(a_lattice_follows_a_surface_and_keeps_its_volumes),
     };
     return run_subjects("waves", list);
 }

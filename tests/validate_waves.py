@@ -235,6 +235,12 @@ def more_cases(add, quick):
                       ("symmetry", "ghost_compressible")):
         add(f"G4 piston t*=3, {wall} piston, {bed} bed: books", "% of the work", 1.0,
             [Wave("piston", bed=bed, wall=wall, n=10, end=1, every=0.05, **corrected)], piston_books)
+    for wall in ("adami", "ghost_compressible"):
+        run = Wave("piston", wall=wall, n=10, end=1, every=0.05, **corrected)
+        add(f"G4 piston t*=3, {wall} piston, wall bed: work on the water", "% of potential flow", 3.0, [run],
+            lambda r: off(r.col("work_J")[-1], r.col("work_known")[-1]))
+        add(f"G4 piston t*=3, {wall} piston, wall bed: of it by the bed behind the piston's foot", "%", None, [run],
+            lambda r: -100 * r.col("in_walls")[-1] / r.col("work_J")[-1])
     add("G4 piston t*=3 by a table: work on the water", "% of the programme's", 1.0,
         [Wave("piston", n=10, end=1, every=0.05, **corrected),
          Wave("piston", n=10, end=1, every=0.05, motion="table", **corrected)],
@@ -317,7 +323,13 @@ def cases(quick):
                "corrected c 10 alpha 0.001": dict(gradient="bonet_lok", n=10),
                "plain": dict(n=10), "weak": dict(n=10, scheme="weak"),
                "renormalised": dict(n=10, gradient="renormalised"),
-               "large eddies corrected": dict(n=10, gradient="bonet_lok", alpha=0, shear="smagorinsky")}
+               "large eddies corrected": dict(n=10, gradient="bonet_lok", alpha=0, shear="smagorinsky"),
+               "plain, diffusion after Antuono": dict(n=10, diffusion="antuono"),
+               "corrected, diffusion after Antuono": dict(CHEAPEST, diffusion="antuono"),
+               "corrected with the guard": dict(CHEAPEST, guard="yes"),
+               "corrected with the guard, diffusion after Antuono": dict(CHEAPEST, guard="yes", diffusion="antuono"),
+               "corrected, lattice cut at the surface": dict(CHEAPEST, lattice="cut"),
+               "corrected, columns pushed by 0.1 dx": dict(CHEAPEST, push=0.1)}
     for name, options in methods.items():
         run, ours = Wave(**options), options is CHEAPEST
         add(f"W4 exact wave e=0.3 20 depths {name}: height", "% of amplitude", 1.0 if ours else None, [run],
@@ -341,12 +353,17 @@ def cases(quick):
     still = {"SPH": dict(diffusion="none"), "weak": dict(diffusion="none", scheme="weak"),
              "R-SPH": dict(diffusion="none", gradient="renormalised"),
              "LES": dict(diffusion="none", alpha=0, shear="smagorinsky"), "delta-SPH": {},
-             "delta-SPH corrected": dict(gradient="bonet_lok")}
+             "delta-SPH corrected": dict(gradient="bonet_lok"),
+             "after Antuono": dict(diffusion="antuono"),
+             "after Antuono corrected": dict(diffusion="antuono", gradient="bonet_lok"),
+             "corrected with the guard": dict(diffusion="none", gradient="bonet_lok", guard="yes"),
+             "delta-SPH corrected with the guard": dict(gradient="bonet_lok", guard="yes"),
+             "after Antuono corrected with the guard": dict(diffusion="antuono", gradient="bonet_lok", guard="yes")}
     for name, options in still.items():
-        for shepard in (0, 40):
+        for shepard in (0,) if "guard" in name or "Antuono" in name else (0, 40):
             run = Run("still_water", n=10, frames=20, **options, **(dict(shepard=shepard) if shepard else {}))
             tag = f"W10 still water {name}, {'filter' if shepard else 'no filter'}"
-            best = name.startswith("delta") and not shepard
+            best = name.startswith("delta") and not shepard or name in ("after Antuono", "corrected with the guard")
             add(f"{tag}: level", "% of depth in 10 s", 0.5 if best else None, [run],
                 lambda r: 100 * abs(drift(r, "twice_centre_m")))
             add(f"{tag}: mean density", "% off", 1.0, [run], lambda r: 100 * abs(drift(r, "density_mean")))

@@ -8,14 +8,16 @@
      mound   water at rest under y = D + b exp(-k x) (Wickramarachchi 6.21), hydrostatic pressure
    But for `gray` the lattice follows the surface: columns of n particles, so wide that every particle has the same mass
    and the room that its mass needs under the pressure that it will have; as columns of water at rest become when the
-   wave comes. */
+   wave comes. lattice=cut: a square lattice, of which what stands above the surface is left out, as of `gray`. */
 #include "soliton.h"
-#include "track.h"
+#include "waves.h"
 #if SPH_DIM == 2
 
-enum { DEPTH = SCENE_COMMON, HEIGHT, LENGTH, AT, N, START, SIDES, MOUND_B, MOUND_K, GRAVITY, SOUND, TRAVEL, PARAMS };
+enum { DEPTH = SCENE_COMMON, HEIGHT, LENGTH, AT, N, START, SIDES, MOUND_B, MOUND_K, GRAVITY, SOUND, TRAVEL,
+       LATTICE, PUSH, PARAMS };
 enum { EXACT, KDV, GRAY, MOUND };
 enum { CLOSED, SYMMETRY, PERIODIC };
+enum { COLUMNS, CUT };
 
 static const scene_param param[PARAMS] = {
     SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0.001, SPH_HYDROSTATIC, SCENE_ADAMI,
@@ -33,6 +35,8 @@ static const scene_param param[PARAMS] = {
     {"sound", "sqrt(g H)", "sound speed, H the depth", 10, 2, 1000, SCENE_NUMBER},
     {"travel", "depth", "how far the wave goes at the speed of the exact one (a mound: of sqrt(g H))", 20, 0, 1e6,
      SCENE_NUMBER},
+    {"lattice", "-", "places at the start (not of gray): columns cut", COLUMNS, 0, 1, SCENE_CHOICE},
+    {"push", "dx", "a sinusoidal push of the places at the start", 0, 0, 0.4, SCENE_NUMBER},
 };
 
 /* the water at the start; lengths in depths, as long as p is there */
@@ -85,6 +89,7 @@ static void prepare(water *w, const double *p)
     w->columns = (double)(uint32_t)(w->area * p[N] + 0.5);
 }
 
+static bool is_cut(const double *p) { return p[START] == GRAY || p[LATTICE] == CUT; }
 static uint32_t walls(const double *p)
 {
     return SPH_LOW(1) | (p[SIDES] == CLOSED ? SPH_LOW(0) | SPH_HIGH(0) : 0);
@@ -169,10 +174,11 @@ static sph_status build(sph_sim *sim, const double *p)
     sph_fluid f = {0};
     tank(p, lo, hi);
     prepare(&w, p);
-    if (p[START] != GRAY)
+    if (!is_cut(p))
         f.mass = 1000 * p[DEPTH] * p[DEPTH] * w.area / (w.columns * p[N]);
     if ((st = sph_add_fluid(sim, &f, &set)) != SPH_OK ||
-        (st = p[START] == GRAY ? add_lattice(sim, set, &w) : add_columns(sim, set, &w)) != SPH_OK)
+        (st = is_cut(p) ? add_lattice(sim, set, &w) : add_columns(sim, set, &w)) != SPH_OK ||
+        (st = wave_push(sim, set, spacing(p), p[PUSH] * spacing(p))) != SPH_OK)
         return st;
     return scene_add_tank(sim, p, lo, hi, spacing(p), walls(p));
 }

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* standing_wave.c: a standing gravity wave of small amplitude, one wavelength long. Starts flat, with the velocities of
-   linear theory: eta = A sin(w t) cos(k (x - L/2)), w^2 = g k tanh(k d); viscosity damps it as exp(-2 nu k^2 t) (Lamb,
+   linear theory: eta = A sin(w t) cos(k (x - L/2)), w^2 = g k tanh(k d); or from rest, by a lattice that follows the
+   raised surface, cos for sin (start=raised). Viscosity damps it as exp(-2 nu k^2 t) (Lamb,
    Hydrodynamics, section 348). The artificial viscosity is by default as strong as the Reynolds number asks for,
    nu = alpha h c/8 (Monaghan 2005, in 2-D): along a free surface it exerts the stresses of a Newtonian fluid. Morris's
    form is a Laplacian of the velocity, whose natural condition at a free surface is another: it damps half as fast. */
-#include "scene.h"
+#include "waves.h"
 #if SPH_DIM == 2
 
-enum { DEPTH = SCENE_COMMON, WAVELENGTH, AMPLITUDE, N, RE, SIDES, GRAVITY, SOUND, PERIODS, PARAMS };
+enum { DEPTH = SCENE_COMMON, WAVELENGTH, AMPLITUDE, N, RE, SIDES, GRAVITY, SOUND, PERIODS, START, PUSH, PARAMS };
 enum { SIDES_PERIODIC, SIDES_SYMMETRY };
+enum { FLAT, RAISED };
 
 static const scene_param param[PARAMS] = {
     SCENE_PARAMS_OF(SPH_WENDLAND_C2, 2, SPH_TAIT, SPH_ARTIFICIAL, 0, SPH_HYDROSTATIC, SCENE_ADAMI,
@@ -22,6 +24,8 @@ static const scene_param param[PARAMS] = {
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, 1e-6, 1e4, SCENE_NUMBER},
     {"sound", "sqrt(g H)", "sound speed, H the depth", 14.142135623730951, 2, 1000, SCENE_NUMBER},
     {"periods", "-", "length of the run in periods", 5, 0, 1e6, SCENE_NUMBER},
+    {"start", "-", "what it is started from: flat raised", FLAT, 0, 1, SCENE_CHOICE},
+    {"push", "dx", "a sinusoidal push of the places at the start", 0, 0, 0.4, SCENE_NUMBER},
 };
 
 static double spacing(const double *p) { return p[DEPTH] / p[N]; }
@@ -79,15 +83,44 @@ static void start(void *ctx, const double *x, double *v, double *rho)
     v[1] = c * (up - down) * sph_cos(phase);
 }
 
+static double raised(const void *of, double x)
+{
+    const wave *w = of;
+    return w->amplitude * sph_cos(w->k * (x - 0.5 * w->length));
+}
+/* pressure of linear theory under the raised surface: rho g (d - y + eta cosh(k y)/cosh(k d)) */
+typedef struct rest {
+    const double *p;
+    wave w;
+} rest;
+static void start_at_rest(void *ctx, const double *x, double *v, double *rho)
+{
+    const rest *r = ctx;
+    const double up = sph_exp(r->w.k * x[1]), deep = sph_exp(r->w.k * r->w.depth);
+    const double share = (up + 1 / up) / (deep + 1 / deep);
+    const double pressure = 1000 * r->p[GRAVITY] * (r->w.depth - x[1] + raised(&r->w, x[0]) * share);
+    (void)v;
+    *rho = scene_density(r->p, pressure > 0 ? pressure : 0, 1000, sound(r->p));
+}
+
+static sph_status place(sph_sim *sim, const double *p, uint32_t water, const wave *w)
+{
+    const wave_surface surface = {0, w->depth, spacing(p), raised, w};
+    const sph_status st = wave_push(sim, water, spacing(p), p[PUSH] * spacing(p));
+    return st || p[START] == FLAT ? st : wave_follow(sim, water, &surface);
+}
+
 static sph_status build(sph_sim *sim, const double *p)
 {
     wave w = wave_of(p);
+    rest r = {p, w};
     const double lo[2] = {0, 0}, hi[2] = {w.length, w.depth};
     uint32_t water;
     sph_status st;
     if ((st = sph_add_fluid(sim, NULL, &water)) != SPH_OK || (st = sph_add_box(sim, water, lo, hi, NULL)) != SPH_OK ||
-        (st = sph_apply_hydrostatic(sim, water, w.depth)) != SPH_OK ||
-        (st = sph_apply_field(sim, water, start, &w)) != SPH_OK)
+        (st = place(sim, p, water, &w)) != SPH_OK || (st = sph_apply_hydrostatic(sim, water, w.depth)) != SPH_OK ||
+        (st = p[START] == FLAT ? sph_apply_field(sim, water, start, &w)
+                               : sph_apply_field(sim, water, start_at_rest, &r)) != SPH_OK)
         return st;
     return scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(1));
 }
@@ -113,7 +146,8 @@ static void history(const sph_sim *sim, const double *p, double *row)
     row[0] = t;
     row[1] = height - w.depth;
     row[2] = o.mass > 0 ? 2 * w.depth * moment / o.mass : 0;
-    row[3] = w.amplitude * sph_sin(w.omega * t) * sph_exp(-2 * w.nu * w.k * w.k * t);
+    const double phase = w.omega * t + (p[START] == FLAT ? 0 : SCENE_PI / 2);
+    row[3] = w.amplitude * sph_sin(phase) * sph_exp(-2 * w.nu * w.k * w.k * t);
     row[4] = o.kinetic;
     row[5] = o.potential;
     row[6] = o.dissipated;

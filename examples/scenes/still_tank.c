@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* still_tank.c: water at rest in an open tank, settling under damping (Gray 2001 section 2.5.2). What the walls do
    wrong shows in the level, in the pressure and in the kinetic energy. */
-#include "scene.h"
+#include "waves.h"
 #if SPH_DIM == 2
 
-enum { DEPTH = SCENE_COMMON, WIDTH, N, GRAVITY, SOUND, START, DURATION, PARAMS };
+enum { DEPTH = SCENE_COMMON, WIDTH, N, GRAVITY, SOUND, START, DURATION, PUSH, PARAMS };
 
 static const scene_param param[PARAMS] = {
     SCENE_COMMON_PARAMS(SPH_CUBIC, 1.2, SPH_TAIT, SPH_ARTIFICIAL, 0.01, SPH_NO_DIFFUSION, SCENE_ADAMI, 0.998, 10000, 0),
@@ -15,6 +15,7 @@ static const scene_param param[PARAMS] = {
     {"sound", "sqrt(g H)", "sound speed, H the depth", 14.142135623730951, 2, 1000, SCENE_NUMBER},
     {"start", "-", "pressure at the start: uniform hydrostatic", SCENE_UNIFORM, 0, 1, SCENE_CHOICE},
     {"duration", "s", "length of the run", 3, 0, 1e9, SCENE_NUMBER},
+    {"push", "dx", "a sinusoidal push of the places at the start", 0, 0, 0.4, SCENE_NUMBER},
 };
 
 static double spacing(const double *p) { return p[DEPTH] / p[N]; }
@@ -35,7 +36,11 @@ static void configure(const double *p, sph_config *c)
 static sph_status build(sph_sim *sim, const double *p)
 {
     const double lo[2] = {0, 0}, top[2] = {p[WIDTH], p[DEPTH]}, hi[2] = {p[WIDTH], 1.5 * p[DEPTH]};
-    const sph_status st = scene_add_water(sim, p[START], lo, top, NULL, NULL);
+    sph_status st = scene_add_water(sim, p[START], lo, top, NULL, NULL);
+    if (!st && p[PUSH] > 0) /* of set 0; under pressures of the new places */
+        st = wave_push(sim, 0, spacing(p), p[PUSH] * spacing(p));
+    if (!st && p[PUSH] > 0 && p[START] == SCENE_HYDROSTATIC)
+        st = sph_apply_hydrostatic(sim, 0, p[DEPTH]);
     return st ? st : scene_add_tank(sim, p, lo, hi, spacing(p), SPH_LOW(0) | SPH_HIGH(0) | SPH_LOW(1));
 }
 

@@ -107,6 +107,46 @@ sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w)
     const sph_status st = sph_add_fluid(sim, &f, &set);
     return st ? st : add_columns(sim, p, set, w, mass);
 }
+
+/* ---- lattices that are moved ---- */
+
+/* dX/dx = 1/(1 + eta(X)/D) (Runge-Kutta 4) */
+static double stretched(const wave_surface *s, double x, double by)
+{
+    const double a = by / (1 + s->eta(s->of, x) / s->depth), b = by / (1 + s->eta(s->of, x + 0.5 * a) / s->depth),
+                 c = by / (1 + s->eta(s->of, x + 0.5 * b) / s->depth), d = by / (1 + s->eta(s->of, x + c) / s->depth);
+    return x + (a + 2 * (b + c) + d) / 6;
+}
+static void follow(void *ctx, const double *x, double *to)
+{
+    const wave_surface *s = ctx;
+    double left = x[0] - s->low;
+    to[0] = s->low;
+    for (; left > s->step; left -= s->step)
+        to[0] = stretched(s, to[0], s->step);
+    to[0] = stretched(s, to[0], left);
+    to[1] = x[1] * (1 + s->eta(s->of, to[0]) / s->depth);
+}
+sph_status wave_follow(sph_sim *sim, uint32_t set, const wave_surface *s)
+{
+    return sph_apply_positions(sim, set, follow, (void *)(uintptr_t)s);
+}
+
+typedef struct pushing {
+    double k, by;
+} pushing;
+static void push(void *ctx, const double *x, double *to)
+{
+    const pushing *p = ctx;
+    to[0] = x[0] + p->by * sph_sin(p->k * x[1]);
+    to[1] = x[1] + p->by * sph_sin(p->k * x[0]);
+}
+sph_status wave_push(sph_sim *sim, uint32_t set, double spacing, double by)
+{
+    pushing p = {2 * SCENE_PI / (8 * spacing), by};
+    return by > 0 ? sph_apply_positions(sim, set, push, &p) : SPH_OK;
+}
+
 /* ---- a tank with a driven end ---- */
 
 static double tank_spacing(const wave_water *w) { return w->depth / w->n; }

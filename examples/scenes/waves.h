@@ -34,6 +34,21 @@ double wave_count(const wave_water *w);
 #define wave_add SPH_NAME(wave_add)
 sph_status wave_add(sph_sim *sim, const double *p, const wave_water *w);
 
+/* Moves water of a lattice so that it follows a surface (sph_apply_positions): a particle at x, y goes to X, y (1 +
+   eta(X)/D), where the water from `low` to X over the bed is as much as it was from `low` to x: volumes and masses
+   stay, the top row lies half a (stretched) spacing below the surface. All in m. */
+typedef struct wave_surface {
+    double low, depth, step; /* step: of the integration, a spacing */
+    double (*eta)(const void *of, double x);
+    const void *of;
+} wave_surface;
+#define wave_follow SPH_NAME(wave_follow)
+sph_status wave_follow(sph_sim *sim, uint32_t set, const wave_surface *s);
+/* A small sinusoidal push of places (Gray 2001, section 3.1), `by` m, eight spacings long, which keeps volumes: x by
+   that of y, y by that of x. */
+#define wave_push SPH_NAME(wave_push)
+sph_status wave_push(sph_sim *sim, uint32_t set, double spacing, double by);
+
 /* sqrt(g D), m/s: the speed of long waves */
 #define wave_long SPH_NAME(wave_long)
 double wave_long(double gravity, double depth);

@@ -106,7 +106,7 @@ static UNUSED uint64_t most_work(const sph_sim *sim, uint64_t n)
     const uint64_t sums = c->density == SPH_SUMMATION ? (rk ? 4u : 1u) : sph_filters(c) ? (rk ? 2u : 1u) : 0;
     const uint64_t forms = 2u * sph_stabilises(c) + sph_normalises(c) + sph_resists_hourglass(c);
     const uint64_t each = 1u + sim->has_adami + sph_corrects(c) + sph_corrects_fluids(c) + sph_smooths_strain(c) +
-                          sph_shears(c) + forms;
+                          sph_shears(c) + sph_takes_density_gradient(c) + forms;
     return SPH_STEP_WORK(forces * each + sums, n, sim->mark_cell, sim->grid.cells);
 }
 static UNUSED uint64_t most_slice(const sph_sim *sim, uint64_t n, uint64_t budget, bool sorted)

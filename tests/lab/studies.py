@@ -316,7 +316,9 @@ standing_wave = Study(
      "Morris": dict(viscosity="morris"), "ghost, p from continuity": dict(wall="ghost_compressible"),
      "Shepard 40": dict(diffusion="none", shepard=40),
      "predictor-corrector": PC, "sound 7": dict(sound=7.0710678),
-     "corrected gradients": dict(gradient="bonet_lok")},
+     "corrected gradients": dict(gradient="bonet_lok"),
+     "corrected gradients, guard": dict(gradient="bonet_lok", guard="yes", cfl=0.9),
+     "diffusion after Antuono": dict(diffusion="antuono")},
     base=dict(periods=3, frames=120), doubles=("default",), at=20,
     h={"Wendland C2": ({}, [1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0])},
     courant=by_integrator({}, 2.0), step=lambda n, h: h / n / (SOUND * math.sqrt(G)))

@@ -26,6 +26,7 @@ bool o_loses(const o_scene *s)
 {
     const sph_config *c = &s->cfg;
     bool loses = c->scheme == SPH_DIRECT || c->scheme == SPH_STANDARD_WICK || c->scheme == SPH_WEAK_WICK;
+    loses |= c->gradient_guard;
     loses |= c->solid == SPH_STABILISED || o_normalises(s);
     loses |= (c->xsph_strain && o_has_solids(s)) || (c->density == SPH_SUMMATION && o_is_weak(s));
     for (int k = 0; k < SPH_DIM; k++)

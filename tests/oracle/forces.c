@@ -54,11 +54,11 @@ static void body_pair(o_scene *s, o_particle *i, const o_particle *j)
         o_drift(s, i, j, &p);
 }
 
-/* a ghost whose density goes by continuity, over bodies */
+/* a ghost whose density goes by continuity, over bodies and other ghosts, which move by it where a wall moves */
 static void ghost_pair(o_scene *s, o_particle *i, const o_particle *j)
 {
     o_pair p;
-    if (!o_is_body(s, j) || !o_pair_of(s, i, j, &p))
+    if (!(o_is_body(s, j) || o_is_ghost(s, j)) || !o_pair_of(s, i, j, &p))
         return;
     if (o_has_solids(s))
         o_stress_force(s, i, j, &p);
@@ -113,6 +113,7 @@ void o_forces(o_scene *s)
 {
     o_refresh(s);
     o_adami(s);
+    o_find_slopes(s);
     o_correct(s);
     o_weigh(s);
     if (o_has_solids(s))

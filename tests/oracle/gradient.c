@@ -120,15 +120,32 @@ static void correct(o_scene *s, o_particle *i)
     i->inverse_scale = scale * back;
 }
 
+/* gradient_guard: of the correction that share, rising from det E 0.3 to 0.6; the scale of what rounding makes of it
+   goes with det E, which is 1/det B */
+static double guard_share(const o_scene *s, const double (*b)[3], double b_scale, double *rise)
+{
+    const double det = 1 / determinant(b), size = norm(b), share = (det - 0.3) / 0.3;
+    const bool rises = s->cfg.gradient_guard && share > -0.01 && share < 1.01;
+    *rise = rises ? 4 * det * det * SPH_DIM * b_scale * pow(size, SPH_DIM - 1) : 0;
+    return !s->cfg.gradient_guard || share > 1 ? 1 : share < 0 ? 0 : share;
+}
+
 /* T of the fluids' Bonet & Lok form */
 static void bonet_lok(const o_scene *s, o_particle *p)
 {
     const double w = o_is_body(s, p) ? o_is_weak(s) ? p->p : p->p / p->rho
                                      : o_is_weak(s) ? p->p : p->p / (p->rho * p->rho);
+    const double back = o_is_weak(s) ? 1 : 1 / p->rho;
+    double b[3][3], rise = 0, share = 1;
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
-            p->t[k][l] = w * (o_is_body(s, p) ? p->inverse[k][l] : k == l);
-    p->t_scale = fabs(w) * (o_is_body(s, p) ? p->inverse_scale : 1);
+            b[k][l] = p->inverse[k][l] / back;
+    if (o_is_body(s, p))
+        share = guard_share(s, (const double(*)[3])b, p->inverse_scale / back, &rise);
+    for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++)
+            p->t[k][l] = w * (!o_is_body(s, p) ? k == l : share * p->inverse[k][l] + (1 - share) * (k == l) * back);
+    p->t_scale = fabs(w) * (o_is_body(s, p) ? p->inverse_scale + rise * (p->inverse_scale + back) : 1);
 }
 
 void o_correct(o_scene *s)

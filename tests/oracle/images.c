@@ -31,6 +31,8 @@ static void behind(const o_scene *s, o_particle *p, int axis, int side)
     p->tangent[axis] = -p->tangent[axis];
     p->way[axis] = -p->way[axis];
     p->beside[axis] = -p->beside[axis];
+    p->steep[axis] = -p->steep[axis];
+    p->upside_down |= s->cfg.gravity[axis] != 0;
     p->slant[axis] = -p->slant[axis];
     p->row[axis] = -p->row[axis];
     p->drawn[axis] = -p->drawn[axis];

@@ -83,6 +83,8 @@ typedef struct o_particle {
     double inverse_scale;      /* magnitude that rounding errors of the inverse are relative to */
     double t[3][3];            /* T of a stress (solids) or p N/rho (Bonet & Lok) */
     double t_scale;
+    double steep[3], steep_scale; /* renormalised gradient of density, kg/m^4 */
+    bool upside_down;          /* an image in a face across which gravity pulls */
     double shear[3][3];        /* T of the viscous stress of fluids */
     double shear_scale, eddy, eddy_scale; /* of T; what the Courant limit sees as |mu|, and how well it is known */
     double pull[3][3];         /* artificial stress R */
@@ -228,6 +230,9 @@ void o_gas_state(const o_scene *s, o_particle *p);
 void o_warm(const o_scene *s, o_particle *i);
 double o_sound_as_mu(const o_scene *s, const o_particle *p);
 void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_pair *p);   /* diffusion.c */
+/* density_gradient.c: before the forces; whether density diffuses between two */
+void o_find_slopes(o_scene *s);
+bool o_diffuses_into(const o_scene *s, const o_particle *i, const o_particle *j);
 void o_boundary(o_scene *s, o_particle *i, const o_particle *j);                           /* boundary.c */
 bool o_make_forms(o_scene *s);                                                             /* forms.c */
 bool o_normalises(const o_scene *s);

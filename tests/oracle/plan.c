@@ -66,7 +66,7 @@ static void draw_usual(plan *p)
     c->viscosity = SPH_ARTIFICIAL;
     c->beta = 0;
     c->xsph = 0;
-    c->diffusion = c->solid == SPH_NO_SOLID && chance(0.5) ? SPH_HYDROSTATIC : SPH_NO_DIFFUSION;
+    c->diffusion = c->solid == SPH_NO_SOLID && chance(0.5) ? SPH_HYDROSTATIC + pick(2) : SPH_NO_DIFFUSION;
     c->gradient = c->solid == SPH_NO_SOLID && chance(0.3) ? SPH_BONET_LOK : SPH_PLAIN;
     c->artificial_stress = c->solid == SPH_NO_SOLID || c->solid >= SPH_TOTAL ? 0 : pick(SPH_ARTIFICIAL_STRESSES);
     c->stress_exponent = 4;
@@ -103,8 +103,11 @@ static void draw_choices(plan *p)
         c->gradient = SPH_PLAIN;
         draw_solids(p);
     }
+    if (c->solid != SPH_NO_SOLID && c->diffusion == SPH_ANTUONO)
+        c->diffusion = SPH_MOLTENI;
     if (chance(0.35))
         draw_usual(p);
+    c->gradient_guard = c->gradient == SPH_BONET_LOK && chance(0.4);
     if (c->solid == SPH_NO_SOLID && c->viscosity != SPH_MORRIS && chance(0.3)) {
         c->shear = 1 + pick(SPH_SHEARS - 1);
         c->smagorinsky = range(0, 2);
@@ -607,7 +610,7 @@ void plan_print(const plan *p)
         {"cubic", "quartic", "quintic", "gaussian", "wendland c2", "wendland c4", "hat"},
         {"standard", "weak", "direct", "standard_wick", "weak_wick"},
         {"inviscid", "artificial", "approaching", "morris"},
-        {"no diffusion", "molteni", "hydrostatic"},
+        {"no diffusion", "molteni", "hydrostatic", "antuono"},
         {"plain", "bonet_lok", "renormalised"},
         {"no solid", "updated", "corrected", "total", "stabilised", "normalised", "normalised_corrected"},
         {"tait", "tait_gray", "linear", "isothermal", "ideal_gas"},
@@ -621,6 +624,7 @@ void plan_print(const plan *p)
            c->alpha, c->beta, c->nu, word[4][c->diffusion], c->delta, word[5][c->gradient], c->xsph,
            c->xsph_velocity ? " of velocity" : "", c->shifting, c->damper, c->damping_rate,
            c->integrator, p->steps);
+    printf("  guard %d\n", c->gradient_guard);
     printf("  shear %u, cs %g, ci %g, filter %u, energy %d, gamma %g, hourglass %g, edge %u, damping %g, drag %g, "
            "h %g .. %g\n",
            c->shear, c->smagorinsky, c->subgrid, c->filter, c->energy, c->gamma, c->hourglass, c->edge, c->damping,
