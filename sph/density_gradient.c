@@ -5,7 +5,7 @@
      G_i = E_i^-1 sum V_j (rho_j - rho_i) grad W,  E_i = sum V_j (x_j - x_i) (x) grad W     (kg/m^4)
 
    over matter of the home's material, which is what density diffuses in: so G is exact where the density is linear,
-   beside walls and at the free surface too. V_j = m_j/rho_j with rho_j not below rho0/2, as in diffusion. Walls and
+   beside walls and at the free surface too. V_j = m_j/rho_j with rho_j not below 0.95 rho0, as in diffusion. Walls and
    images in a face across which gravity pulls are left out of both sums; other images count. Where the neighbours do
    not span space (sph_invert_sum) G is 0.
 

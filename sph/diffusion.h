@@ -6,8 +6,8 @@
    (G_i + G_j)/2 of the renormalised gradients of density (ANTUONO: density_gradient.c; their psi_ij is twice what
    stands before grad W here), or 0. An image
    has the density of its original: rho_H is that of the original's place (factors.c, sph_pair_factors). Only within one
-   material. rho_j of the volume m_j/rho_j is at least rho0/2: among spray, thinner without bound, volumes would sum to
-   more than the step stands (factors.c), and densities go below 0. Standard schemes have that in the candidates'
+   material. rho_j of the volume m_j/rho_j is at least 0.95 rho0: among spray, thinner without bound, volumes would sum
+   to more than the step stands (factors.c), and densities go below 0. Standard schemes have that in the candidates'
    columns (tiles.c), weak ones, whose other terms want 1/rho_j, here. */
 #ifndef SPH_DIFFUSION_H
 #define SPH_DIFFUSION_H

@@ -226,7 +226,7 @@ void sph_make_factors(sph_sim *sim)
     f->av_beta = (sph_real)(2 * h * h * c->beta);
     f->morris = SPH_WITH_MORRIS ? (sph_real)(4 * c->nu) : 0;
     f->diff = SPH_HAS_DIFFUSION ? (sph_real)(2 * c->delta * h * c->sound_speed) : 0;
-    f->least_rho = SPH_HAS_DIFFUSION ? (sph_real)(0.5 * c->rho0) : 0;
+    f->least_rho = SPH_HAS_DIFFUSION ? (sph_real)(SPH_LEAST_DENSITY * c->rho0) : 0;
     const double c2 = c->sound_speed * c->sound_speed * (SPH_IS(c->eos, TAIT_GRAY) ? 7 : 1);
     for (int k = 0; k < SPH_DIM; k++) {
         f->gravity[k] = (sph_real)c->gravity[k];
@@ -276,7 +276,7 @@ const sph_factors *sph_pair_factors(const sph_sim *sim, sph_thread *t, uint32_t 
     const sph_set *i = &sim->set[t->home_set[h]], *j = ghosts ? i : t->of;
     const double c2 = i->c0 * i->c0 * (SPH_IS(i->eos, TAIT_GRAY) ? 7 : 1);
     *f = sim->fac;
-    f->least_rho = (sph_real)(0.5 * i->rho0);
+    f->least_rho = (sph_real)(SPH_LEAST_DENSITY * i->rho0);
     f->av_alpha = (sph_real)(c->smoothing_length * c->alpha * (i->c0 + j->c0));
     if (SPH_HAS_DIFFUSION)
         f->diff = i->kin == j->kin ? (sph_real)(2 * c->delta * c->smoothing_length * i->c0) : 0;

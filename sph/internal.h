@@ -32,6 +32,8 @@ enum { JUMP_HELD = SPH_POWERS, JUMP_REMOVED, JUMP_RELEASED, JUMP_PUT_BACK, JUMP_
 #define SPH_DEAD 255u     /* set of a particle that is gone and will be dropped by the next sort */
 /* a sum of squares above this counts as not finite: a float has room for a factor of 1e8 beyond */
 #define SPH_LIMIT_SQUARE ((sph_real)1e30)
+/* where density diffuses or shifts: the density of which a neighbour's volume is at least, of that at rest */
+#define SPH_LEAST_DENSITY 0.95
 /* Strips of that many cells, one after the other: where no particle is in one or beside it, nothing is stored but where
    slabs begin (sort.c). What is true of a strip: */
 #define SPH_STRIP 32u
@@ -120,7 +122,7 @@ typedef struct sph_factors {
     sph_real inv_wdx, repulsion; /* 1/(W(dx) without its scale); artificial stress: epsilon */
     sph_real apart;              /* shift_pairs: (W/W(dx))^4 of pairs that are moved apart is above it */
     sph_real contact;            /* of two bodies: T_i + T_j where W is twice W(dx) */
-    sph_real least_rho;          /* diffusion: of a neighbour, rho0/2 (tiles.c) */
+    sph_real least_rho;          /* diffusion: of a neighbour, 0.95 rho0 (tiles.c) */
     sph_real av_alpha, av_beta, morris, diff, hydro[SPH_DIM], hydro_offset, gravity[SPH_DIM], small_p;
     sph_real cover, weigh;       /* quadrature: slope over Q0, beta */
     bool rate_by_density, continuity, extras;

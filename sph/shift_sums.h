@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT. Copyright the sph authors. */
 /* shift_sums.h: the sums of particle shifting (shifting.c) in the force loop. With V = m/rho (but in weak schemes
-   of a rho that is at least rho0/2: tiles.c), over fluid, walls and images behind faces:
+   of a rho that is at least 0.95 rho0: tiles.c), over fluid, walls and images behind faces:
 
      SHIFT    sum V_j [1 + 0.2 (W/W(dx))^4] g x_ij    the slope of disorder; the bracket keeps pairs from clumping
      NEARER   sum V_j [(W/W(dx))^4 - (W(0.8 dx)/W(dx))^4] g x_ij, where that bracket is above 0 (shift_pairs)

@@ -210,11 +210,11 @@ enum { SPH_NO_ARTIFICIAL_STRESS, SPH_PRINCIPAL, SPH_COMPONENTS, SPH_ARTIFICIAL_S
 enum { SPH_INVISCID, SPH_ARTIFICIAL, SPH_ARTIFICIAL_APPROACHING, SPH_MORRIS, SPH_VISCOSITIES };
 
 /* Density diffusion, drho_i += 2 delta h c0 sum (m_j/rho_j) psi_ij.grad W over what is of one material, with rho_j
-   in m_j/rho_j not below rho0/2 (spray loses density without bound, and would blow diffusion up); it limits the step
-   to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi = (rho_j -
-   rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes between the
-   two positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so still
-   water stays still. ANTUONO: the mean of the two particles' renormalised gradients of density (kg/m^4) times
+   in m_j/rho_j not below 0.95 rho0 (spray loses density without bound, and the step's bound is for volumes at rest); it
+   limits the step to h/(8 delta c0), in the predictor-corrector to half of that, in Runge-Kutta to twice. MOLTENI: psi
+   = (rho_j - rho_i) r_ji/|r|^2 (Molteni & Colagrossi 2009). HYDROSTATIC: the density difference that gravity makes
+   between the two positions (of an image: of its original's) is taken off first (Fourtakas et al. 2019, linearised), so
+   still water stays still. ANTUONO: the mean of the two particles' renormalised gradients of density (kg/m^4) times
    r_ji is taken off, so that no linear field of density feels any, whatever made it (Antuono, Colagrossi, Marrone &
    Molteni 2010); images in faces across which gravity pulls have no part in it; SPH_DIM reals a particle
    (SPH_USE_ANTUONO) and a sweep; not with solids. Of sets with sound speeds of their own (sph_fluid) diffusion takes

@@ -83,7 +83,7 @@ typedef struct sph_sweep {
     bool (*home)(const sph_sim *sim, const sph_set *set);
     uint32_t classes;     /* an or of 1 << SPH_ROLE_... that are candidates */
     uint32_t sums;        /* an or of 1 << row of sph_thread.sum */
-    uint8_t needs_inv_rho; /* true: 1/rho; SPH_BOUNDED: of candidates 1/max(rho, rho0/2) */
+    uint8_t needs_inv_rho; /* true: 1/rho; SPH_BOUNDED: of candidates 1/max(rho, 0.95 rho0) */
     uint32_t columns;     /* an or of 1 << SPH_COLUMN_... */
     void (*tile)(const sph_sim *sim, sph_thread *t, uint32_t homes, uint32_t role); /* add a tile to the homes' sums */
     void (*finish)(sph_sim *sim, sph_thread *t, uint32_t home);                     /* a home's sums are complete */

@@ -162,13 +162,12 @@ SPH_FAST_LOADS(SPH_FAST_FN)
     ((uint32_t)(eos) << 5 | (uint32_t)(floor) << 4 | (uint32_t)(inv_rho) << 3 | (uint32_t)(press) << 2 |           \
      (uint32_t)(wall) << 1 | (uint32_t)(homes))
 #define NO_KEY 0xffffffffu
-#define LEAST_DENSITY ((sph_real)0.5) /* of that at rest */
 
 void sph_load_tile(const sph_candidates *r, sph_tile *t, uint32_t asked, bool homes)
 {
     const bool inv_rho = asked != 0;
     const bool bounded = SPH_HAS_BOUNDED && asked == SPH_BOUNDED && !homes;
-    const sph_real least = bounded ? LEAST_DENSITY : (sph_real)-1e30; /* all of them */
+    const sph_real least = bounded ? (sph_real)SPH_LEAST_DENSITY : (sph_real)-1e30; /* all of them */
     const sph_config *c = &r->sim->cfg;
     const bool wall = SPH_HAS_LAYERED_WALLS && r->set->role == SPH_ROLE_GHOST, press = needs_press(r->sim);
     const bool floor = press && c->pressure_floor && !sph_is_solid(r->set);

@@ -5,9 +5,9 @@
      count SETUP N STEPS    bench: the dam break of bench.c; corrected: the same with corrected gradients; elastic,
                             total: its block of a solid; plain, stabilised: that block with Powell's kernel (2012);
                             tight, empty: its block of water, in a domain that fits and in much room; default, no_books,
-                            large_eddies, shifting, damper, antuono: the scene dam_break or dam_break_3d as it is, without
-                            books, with large eddies, with its particles shifted, with the acoustic damper, with density
-                            diffusion after Antuono */
+                            large_eddies, shifting, damper, antuono: the scene dam_break or dam_break_3d as it is,
+                            without books, with large eddies, with its particles shifted, with the acoustic damper, with
+                            density diffusion after Antuono */
 #include "bench_setups.h"
 #include "examples/scenes/scene.h"
 

@@ -20,7 +20,7 @@ static void find_slope(o_scene *s, o_particle *i)
         if (!o_diffuses_into(s, i, j) || !o_pair_of(s, i, j, &p))
             continue;
         const o_set *set = &s->set[j->set];
-        const double volume = set->mass / o_max(j->rho, 0.5 * set->rho0);
+        const double volume = set->mass / o_max(j->rho, 0.95 * set->rho0);
         for (int k = 0; k < SPH_DIM; k++) {
             d[k] += volume * (j->rho - i->rho) * p.g * p.x[k];
             for (int l = 0; l < SPH_DIM; l++)

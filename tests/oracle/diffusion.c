@@ -27,7 +27,7 @@ void o_diffusion(const o_scene *s, o_particle *i, const o_particle *j, const o_p
         drho -= 0.5 * (i->steep[k] + j->steep[k]) * (j->x[k] - i->x[k]);
         size += 0.5 * (i->steep_scale + j->steep_scale) * fabs(j->x[k] - i->x[k]);
     }
-    const double volume = s->set[j->set].mass / o_max(j->rho, 0.5 * set->rho0);
+    const double volume = s->set[j->set].mass / o_max(j->rho, 0.95 * set->rho0);
     const double c = 2 * s->cfg.delta * h * set->c0 * volume;
     const double eta = 0.01 * h * h;
     const double f = -p->r * p->r * p->g / (p->r * p->r + eta);

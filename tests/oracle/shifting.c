@@ -60,7 +60,7 @@ void o_find_disorder(o_scene *s)
             if (!(o_is_body(s, j) || o_is_ghost(s, j)) || !o_pair_of(s, i, j, &p))
                 continue;
             if (!o_is_weak(s))
-                p.volume = s->set[j->set].mass / o_max(j->rho, 0.5 * s->set[j->set].rho0);
+                p.volume = s->set[j->set].mass / o_max(j->rho, 0.95 * s->set[j->set].rho0);
             sum_pair(s, i, &p, w_dx, &size, spread, &cover);
             sum_close(s, &p, w_dx, nearer);
         }
