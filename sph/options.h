@@ -126,8 +126,9 @@
       "factor on velocities in predictor and corrector; 1: none", "damping", "-", 0.5, 1, OWN)                        \
     P(A, dt, REAL, 0, 0, SPH_HUGE, true, ">= 0 (0: controlled)", FREE, "s", "fixed time step; 0: controlled",         \
       "dt", "s", 0, 1e9, USUAL)                                                                                       \
-    /* on h/(c0 + h max|mu|) (Wickramarachchi 3.88); the predictor-corrector takes 0.5 at most in fluids, and with    \
-       solids less, down to 0.05, where viscosity and diffusion are too weak for it (factors.c) */                    \
+    /* on h/(c0 + h max|mu|) (Wickramarachchi 3.88); the predictor-corrector takes 0.5 at most in fluids, with        \
+       corrected gradients 0.25 (kick-drift-kick and leap-frog 0.9), and with solids less, down to 0.05, where        \
+       viscosity and diffusion are too weak for it (factors.c) */                                                     \
     P(A, cfl, POSITIVE, 0.25, 0, 10, true, "> 0 and <= 10", FIXED, "-", "Courant factor", "cfl", "-", 1e-3, 10, OWN)  \
     O(A, viscous_factor, POSITIVE, 0.125, 0, 10, true, "> 0 and <= 10", FIXED, "-", "on h^2/nu_effective")            \
     O(A, force_factor, POSITIVE, 0.25, 0, 10, true, "> 0 and <= 10", FIXED, "-", "on sqrt(h/max|a|)") /* 3.89 */      \

@@ -782,13 +782,39 @@ static void with_it_water_at_rest_stays_so(void **state)
     const double whole = restless(false), guarded = restless(true);
     (void)state;
     printf("kinetic energy after 4.5 s: %.2g J/m, with the guard %.2g\n", whole, guarded);
-    assert_true(guarded < 0.1 * whole);
+    assert_true(guarded < 0.2 * whole);
 }
 #endif
+
+/* waves beside a surface are about twice as fast with corrected gradients */
+static void they_bound_the_courant_number(void **state)
+{
+    static const double most[] = {0.25, 0.9, 0.9, 1.2, 1.2};
+    (void)state;
+    for (uint32_t k = 0; k < SPH_INTEGRATORS; k++)
+        for (uint32_t g = SPH_PLAIN; g < SPH_GRADIENTS; g++) {
+            sph_config c = periodic_config(1, 0.125);
+            uint32_t set;
+            sph_step_info info;
+            c.integrator = k;
+            c.gradient = g;
+            c.viscosity = SPH_INVISCID;
+            c.cfl = 1.2;
+            sph_sim *sim = new_sim(&c);
+            must(sim, sph_add_fluid(sim, NULL, &set));
+            must(sim, sph_add_box(sim, set, c.lo, c.hi, NULL));
+            must(sim, sph_step(sim));
+            sph_get_step(sim, &info);
+            const double want = g ? most[k] : k ? 1.2 : 0.5;
+            assert_true(fabs(info.limit_dt[SPH_LIMIT_COURANT] / (want * c.smoothing_length / 20) - 1) < 1e-6);
+            assert_int_equal(free_sims(NULL), 0);
+        }
+}
 
 int main(void)
 {
     const struct CMUnitTest list[] = {
+        subject(they_bound_the_courant_number),
         subject(rates_are_those_of_the_sums_over_all_pairs),
         subject(rates_beside_seams_and_mirrors_are_those_of_the_sums),
         subject(rates_beside_moving_walls_are_those_of_the_sums),

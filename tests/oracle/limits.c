@@ -8,7 +8,8 @@
                 what the integrator stands (sph/factors.c): 1/8 (Wendland C4: 0.095), twice that in Runge-Kutta, half of
                 it in the predictor-corrector of fluids
    In the total form the configuration's sound speed counts too: contact pushes with it.
-   The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25; beside
+   The predictor-corrector stands less (sph/factors.c says why): in fluids 0.5, with corrected gradients 0.25
+   (kick-drift-kick and leap-frog stand 0.9 with these); beside
    solids 0.22 times the cube root of (delta + nu/(h c) or alpha/8)/(0.01/8), times 0.75 (updated) or 0.42, but 0.05 at
    least. With the damper 1.5/(1 + 2 theta) at most, in the predictor-corrector 1/(1 + 4 theta) of what it stands.
    Runge-Kutta, which multiplies an oscillation by 1 + (w dt)^4/8 where the predictor-corrector has a fourth:
@@ -19,8 +20,9 @@ double o_courant_number(const sph_config *c)
 {
     double d = c->diffusion ? c->delta : 0;
     const bool rk = (c->integrator == SPH_RUNGE_KUTTA || c->integrator == SPH_RUNGE_KUTTA_MOMENTUM) && c->solid;
+    const bool kicks = c->gradient && (c->integrator == SPH_KICK_DRIFT_KICK || c->integrator == SPH_LEAP_FROG);
     if (c->integrator != SPH_PREDICTOR_CORRECTOR && !rk)
-        return c->damper > 0 ? o_min(c->cfl, 1.5 / (1 + 2 * c->damper)) : c->cfl;
+        return o_min(o_min(c->cfl, c->damper > 0 ? 1.5 / (1 + 2 * c->damper) : c->cfl), kicks ? 0.9 : c->cfl);
     if (c->viscosity == SPH_MORRIS)
         d += c->nu / (c->smoothing_length * c->sound_speed);
     else if (c->viscosity)
