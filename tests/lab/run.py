@@ -14,7 +14,7 @@ particle-steps of the run.
 --most: only the rows of --smoke and those whose run took less by seconds.csv, or is there; tables then hold no others
 and say so.
 """
-import argparse, csv, glob, hashlib, io, os, re, shutil, subprocess, sys, time
+import argparse, csv, glob, hashlib, io, os, re, shutil, subprocess, sys, threading, time
 from concurrent.futures import ThreadPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -119,6 +119,16 @@ def count(args, run, coarsest):
     command = [args.counter, "run", run.scene] + [f"{k}={v}" for k, v in options.items()]
     key = hashlib.sha256((" ".join(command) + digest_of_code()).encode()).hexdigest()[:20]
     base = os.path.join(WORK, "count_" + key)
+    with COUNTING:  # rows of several studies share a count
+        lock = COUNTS.setdefault(key, threading.Lock())
+    with lock:
+        return counted(args, command, base)
+
+
+COUNTING, COUNTS = threading.Lock(), {}
+
+
+def counted(args, command, base):
     if not os.path.exists(base + ".out"):
         done = subprocess.run([args.valgrind, "--tool=callgrind", f"--callgrind-out-file={base}.tmp",
                                "--toggle-collect=sph*_step_to"] +
