@@ -184,7 +184,7 @@ void sph_match_gradient(const sph_sim *sim, const sph_set *set, uint32_t i, sph_
     const double alpha = sph_layer_shift(sim, set);
     memcpy(own, l, sizeof own);
     for (uint32_t a = 0; a < SPH_DIM; a++) {
-        const double d = m->damp[a], rate = alpha + d, left = d > 0 ? sph_exp(-rate * sim->dt) : 0;
+        const double d = (double)m->damp[a], rate = alpha + d, left = d > 0 ? sph_exp(-rate * sim->dt) : 0;
         for (uint32_t k = 0; k < SPH_DIM; k++) {
             const uint32_t n = k * SPH_DIM + a;
             const sph_real was = b->strain_memory[n][i];
