@@ -17,16 +17,20 @@ SPH_OBJECT(gradient)
 #define GUARD_NONE 0.3
 #define GUARD_ALL 0.6
 
-SPH_INLINE vreal guarded_share(const vreal *b)
+SPH_INLINE vreal determinant(const vreal *b)
 {
-    const vreal x = b[0], y = b[sph_sym[1][1]], z = b[sph_sym[2][2]];
-    const vreal xy = b[sph_sym[0][1]], xz = b[sph_sym[0][2]], yz = b[sph_sym[1][2]];
-    vreal det = x; /* of B = E^-1 */
+    const vreal x = b[0];
+    if (SPH_DIM == 1)
+        return x;
+    const vreal y = b[sph_sym[1][1]], xy = b[sph_sym[0][1]];
     if (SPH_DIM == 2)
-        det = x * y - xy * xy;
-    if (SPH_DIM == 3)
-        det = x * (y * z - yz * yz) - xy * (xy * z - yz * xz) + xz * (xy * yz - y * xz);
-    const vreal share = (1 / det - (sph_real)GUARD_NONE) * (sph_real)(1 / (GUARD_ALL - GUARD_NONE));
+        return x * y - xy * xy;
+    const vreal z = b[sph_sym[2][2]], xz = b[sph_sym[0][2]], yz = b[sph_sym[1][2]];
+    return x * (y * z - yz * yz) - xy * (xy * z - yz * xz) + xz * (xy * yz - y * xz);
+}
+SPH_INLINE vreal guarded_share(const vreal *b) /* of B = E^-1 */
+{
+    const vreal share = (1 / determinant(b) - (sph_real)GUARD_NONE) * (sph_real)(1 / (GUARD_ALL - GUARD_NONE));
     const vreal least = v_max(share, v_set(0));
     return v_select(v_less(least, v_set(1)), least, v_set(1));
 }

@@ -299,7 +299,8 @@ static list runge_kutta = {BEGIN,              SORT, DENSITIES, FORCES, &pass_se
                            SUM_AGAIN};
 /* what was left out is an empty place of the list */
 enum { ALL_IN = SPH_WITH_FLOW && SPH_WITH_DAMPER && SPH_WITH_DAMPING_RATE && SPH_HAS_XSPH_VELOCITY };
-_Static_assert(!ALL_IN || sizeof runge_kutta / sizeof *runge_kutta <= SPH_MAX_PROGRAM, "SPH_MAX_PROGRAM: too small");
+_Static_assert(!ALL_IN || !SPH_HAS_RUNGE_KUTTA || sizeof runge_kutta / sizeof *runge_kutta <= SPH_MAX_PROGRAM,
+               "SPH_MAX_PROGRAM: too small");
 enum { SUMMING = sizeof((const sph_pass *const[]){SUM_AGAIN}) / sizeof(const sph_pass *) };
 #define ROOM_FOR(list, knob) _Static_assert(!(knob) || sizeof(list) / sizeof *(list) <= SPH_MAX_PROGRAM, #list)
 ROOM_FOR(predictor_corrector, SPH_WITH_PREDICTOR_CORRECTOR);
