@@ -20,7 +20,7 @@
 SPH_OBJECT(density_gradient)
 
 #if SPH_WITH_ANTUONO
-enum { SUM_E, SUM_D = SPH_NT, DENSITY_SUMS = SPH_NT + SPH_DIM };
+enum { SUM_FRAME, SUM_SLOPE = SPH_NT, DENSITY_SUMS = SPH_NT + SPH_DIM };
 _Static_assert(DENSITY_SUMS <= SPH_SUMS, "SPH_SUMS is too small");
 
 /* a gradient turns with places, whatever a face does to velocities */
@@ -44,10 +44,10 @@ SPH_INLINE void density_gradient_pair(const void *what, uint32_t j, vreal *s)
     SPH_UNROLL
     for (int k = 0; k < SPH_DIM; k++) {
         const vreal wx = w * dx[k];
-        s[SUM_D + k] = s[SUM_D + k] + less * wx;
+        s[SUM_SLOPE + k] = s[SUM_SLOPE + k] + less * wx;
         SPH_UNROLL
         for (int l = k; l < SPH_DIM; l++)
-            s[SUM_E + sph_sym[k][l]] = s[SUM_E + sph_sym[k][l]] + wx * dx[l];
+            s[SUM_FRAME + sph_sym[k][l]] = s[SUM_FRAME + sph_sym[k][l]] + wx * dx[l];
     }
 }
 
@@ -81,10 +81,10 @@ static void density_gradient_finish(sph_sim *sim, sph_thread *t, uint32_t h)
 {
     sph_real e[SPH_DIM][SPH_DIM], inv[SPH_DIM][SPH_DIM], d[SPH_DIM];
     for (int k = 0; k < SPH_DIM; k++)
-        d[k] = v_fold(t->sum[SUM_D + k][h]) * sim->fac.slope;
+        d[k] = v_fold(t->sum[SUM_SLOPE + k][h]) * sim->fac.slope;
     for (int k = 0; k < SPH_DIM; k++)
         for (int l = k; l < SPH_DIM; l++)
-            e[k][l] = e[l][k] = -v_fold(t->sum[SUM_E + sph_sym[k][l]][h]) * sim->fac.slope;
+            e[k][l] = e[l][k] = -v_fold(t->sum[SUM_FRAME + sph_sym[k][l]][h]) * sim->fac.slope;
     const bool spans = sph_invert_sum((const sph_real(*)[SPH_DIM])e, inv, 1);
     for (int k = 0; k < SPH_DIM; k++) {
         sph_real sum = 0;

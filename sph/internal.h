@@ -177,7 +177,7 @@ struct sph_integrator; /* integrators.h */
 
 #define SPH_MAX_RANGES 64u
 /* room for the passes of the longest list that is in (integrators.c) */
-#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 72u : 48u)
+#define SPH_MAX_PROGRAM (SPH_HAS_RUNGE_KUTTA ? 72u : 56u)
 
 struct sph_sim {
     sph_config cfg;
