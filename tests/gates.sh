@@ -75,7 +75,7 @@ study() { grep -l '^# study: hydrostatic' tests/lab/*.csv; }
 
 hash_changed() { edit '^1f,base,' '/^1f,base,/s/,[0-9a-f]*$/,0000000000000001/' tests/golden.csv; }
 coefficient() {
-    edit '(const vreal |p->)mg = k_slope\(' 's/mg = k_slope(/mg = (sph_real)(1 + 1e-7) * k_slope(/' sph/*.[ch]
+    edit 'p->mg = .*k_slope\(' 's/p->mg = /p->mg = (sph_real)(1 + 1e-7) * /' sph/*.[ch]
 }
 heap() { function_of 'void *SPH_NAME(gates_)(void)' '{ return malloc(8); }' '#include <stdlib.h>'; }
 prints() { function_of 'void SPH_NAME(gates_)(void)' '{ printf("%d", 1); }' '#include <stdio.h>'; }
